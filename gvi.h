@@ -8310,11 +8310,13 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
 
     if (low > high) fall = high/low;
     if (top == 2) fall *= GVI_SQRT(fall);                        // from y_1, or nearly
+    const gvi_real flat = GVI_SQRT(fall)*(y[0] < y[1] ? y[0]/y[1] : 1);
     if (top >= 6) {
         const gvi_real lower = y[4] + y[5], before = lower > low ? low/lower : 1;
         fall = GVI__STEADY*gvi__larger(before, fall);
         fall = lower > high ? gvi__larger(GVI_SQRT(high/lower), fall) : 1;
     }
+    fall = gvi__larger(flat, fall);
     gvi_real lacks = gvi__power(fall, e/2)*10;
     if (e & 1) lacks *= GVI_SQRT(fall);
     return high*gvi__smaller(lacks, 1);
@@ -8324,14 +8326,16 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
    to K = s where forces make the curve, which lacks that mode, else K = s - 1.  Of a coordinate
 
      high = |y_K| + |y_(K-1)|     low = |y_(K-2)| + |y_(K-3)|     lower = |y_(K-4)| + |y_(K-5)|
-     rho = max((high/lower)^(1/4), 0.8 (high/low)^(1/2), 0.8 (low/lower)^(1/2)), at most 1
+     rho = max((high/lower)^(1/4), 0.8 (high/low)^(1/2), 0.8 (low/lower)^(1/2),
+               |y_K/y_(K-1)|^(1/2) (high/low)^(1/4)), at most 1
      high min(1, 10 rho^e)                                        e = 2 s - K
 
-   rho is the fall from mode to mode.  The step lacks about y_2s, which its points take for modes
-   that they see: high rho^e; ten times that, since a short tail may be flatter than it looks.
-   Stiff forces, for which Newton's method had to take over, turn all of y_s into an error: high.
-   (With constraints it takes over for other reasons.)  Below K = 4 single modes count, below 6
-   two pairs.  In positions the modes are those of M v, from the forces.  Where motion is far below
+   rho is the fall from mode to mode, last from pair to pair and within the highest: forces that bend
+   inside a step leave a tail that is flat there.  The step lacks about y_2s, which its points take
+   for modes that they see: high rho^e; ten times that, since a short tail may be flatter than it
+   looks.  Stiff forces, for which Newton's method had to take over, turn all of y_s into an error:
+   high.  (With constraints it takes over for other reasons.)  Below K = 4 single modes count, below
+   6 two pairs.  In positions the modes are those of M v, from the forces.  Where motion is far below
    max |v| + max |q|/h, each times sqrt(M_ii), and below max |v| + |q_i|/h, so that neither a light
    body nor one near the origin counts as at rest, an error of some s^2 eps of the smaller of these
    is rounding, and relative to it.                                                            */
