@@ -8310,7 +8310,8 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
 
     if (low > high) fall = high/low;
     if (top == 2) fall *= GVI_SQRT(fall);                        // from y_1, or nearly
-    const gvi_real flat = GVI_SQRT(fall)*(y[0] < y[1] ? y[0]/y[1] : 1);
+    const gvi_real inside = y[0] < y[1] ? y[0]/y[1] : 1,
+                   flat = GVI_SQRT(inside*fall*GVI_SQRT(fall));
     if (top >= 6) {
         const gvi_real lower = y[4] + y[5], before = lower > low ? low/lower : 1;
         fall = GVI__STEADY*gvi__larger(before, fall);
@@ -8327,18 +8328,18 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
 
      high = |y_K| + |y_(K-1)|     low = |y_(K-2)| + |y_(K-3)|     lower = |y_(K-4)| + |y_(K-5)|
      rho = max((high/lower)^(1/4), 0.8 (high/low)^(1/2), 0.8 (low/lower)^(1/2),
-               |y_K/y_(K-1)|^(1/2) (high/low)^(1/4)), at most 1
+               |y_K/y_(K-1)|^(1/4) (high/low)^(3/8)), at most 1
      high min(1, 10 rho^e)                                        e = 2 s - K
 
-   rho is the fall from mode to mode, last from pair to pair and within the highest: forces that bend
-   inside a step leave a tail that is flat there.  The step lacks about y_2s, which its points take
-   for modes that they see: high rho^e; ten times that, since a short tail may be flatter than it
-   looks.  Stiff forces, for which Newton's method had to take over, turn all of y_s into an error:
-   high.  (With constraints it takes over for other reasons.)  Below K = 4 single modes count, below
-   6 two pairs.  In positions the modes are those of M v, from the forces.  Where motion is far below
-   max |v| + max |q|/h, each times sqrt(M_ii), and below max |v| + |q_i|/h, so that neither a light
-   body nor one near the origin counts as at rest, an error of some s^2 eps of the smaller of these
-   is rounding, and relative to it.                                                            */
+   rho is the fall from mode to mode, last from pair to pair and within the highest: forces that
+   bend inside a step leave a tail that is flat there.  The step lacks about y_2s, which its points
+   take for modes that they see: high rho^e; ten times that, since a short tail may be flatter than
+   it looks.  Stiff forces, for which Newton's method had to take over, turn all of y_s into an
+   error: high.  (With constraints it takes over for other reasons.)  Below K = 4 single modes
+   count, below 6 two pairs.  In positions the modes are those of M v, from the forces.  Where
+   motion is far below max |v| + max |q|/h, each times sqrt(M_ii), and below max |v| + |q_i|/h, so
+   that neither a light body nor one near the origin counts as at rest, an error of some s^2 eps of
+   the smaller of these is rounding, and relative to it.                                       */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
@@ -8416,8 +8417,8 @@ static gvi_real gvi__length(gvi_real k)
 /* How many rungs up, after a step that succeeded.  `room`: up to where the resolution, of order
    2s - 1 in h, reaches its limit, less a margin.  What was lost of it since the last step will be
    lost again; a first loss may be chance, and shrinks h by little.  From 0 to 4 rungs h stays as
-   it is.  Work over time is iterations/h: from GVI__MANY of them on h does not grow, from 5/3 of
-   that on it shrinks a little.                                                                */
+   it is, and above where the step before left less.  Work over time is iterations/h: from
+   GVI__MANY of them on h does not grow, from 5/3 of that on it shrinks a little.              */
 static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 {
     struct gvi__dial *dial = &st->in.dial;
@@ -8425,15 +8426,17 @@ static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
     const int many = st->in.stages == 2 ? GVI__MANY*3/2 : GVI__MANY,
               newton = st->formulation == GVI_NEWTON;
     gvi_real left = room, up = 0;
+    int lasts = 1;
 
     if (room < 2*GVI__BAND) {
         const gvi_real loss = dial->reach - (at + room);
+        lasts = dial->reach - at > GVI__BAND;
         if (loss > 0) left -= loss;
         if (room > 0 && dial->loss <= 0) left = gvi__larger(left, -GVI__DOUBT);
         dial->loss = loss;
         dial->reach = at + room;
     }
-    if (left > GVI__BAND) up = gvi__smaller(left - GVI__SHY, GVI__BAND);
+    if (lasts && left > GVI__BAND) up = gvi__smaller(left - GVI__SHY, GVI__BAND);
     if (left < 0) up = gvi__larger(left - 1, -GVI__FALL);
 
     dial->shorter = newton ? 0 : GVI__SHORTER;

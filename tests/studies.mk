@@ -228,7 +228,7 @@ mutants: | $(FIRST)
 
 # -- hard cases and theorems, measured
 
-HARD     = random dial lucky constraints constraints-float eccentric flyby roots eccentric-float pythagorean corners corners-float stiff long long-float brouwer brouwer-float walk drift
+HARD     = random dial measure lucky constraints constraints-float eccentric flyby roots eccentric-float pythagorean corners corners-float stiff long long-float brouwer brouwer-float walk drift
 ORDERS   = order rules constant counterexample lagrangian curve forced
 THEOREMS = spectral inertia stability modified
 # Orders need more digits than long double has on x86.

@@ -219,6 +219,46 @@ TEST(it_lands_on_the_end_to_the_bit)
     }
 }
 
+/* q'' = 1, from t = 0 on 1 + 28 t: a polynomial on each side */
+static int begins(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) x->f[k] += 1 + (x->t[k] > 0 ? 28*x->t[k] : 0);
+    return (void)user, 0;
+}
+
+TEST(seven_of_eight_steps_with_a_bend_inside_say_so)
+{
+    const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .points = begins } };
+    const gvi_desc desc = { .n = 1, .degree = 8, .effects = effects, .effect_count = 1, .resolution = R(0.999) };
+    int wrong = 0, silent = 0;
+    for (int part = 1; part < 50; ++part)
+        for (real h = R(0.05); h < 1; h *= R(1.3)) {
+            const real t = -h*(real)part/50, late = t + h, start[2] = { 0, R(0.5) };
+            const real exact[2] = { start[1]*h + h*h/2 + 28*late*late*late/6, start[1] + h + 14*late*late };
+            gvi_stepper st = new_stepper(&desc);
+            assert_ok(gvi_start(&st, t, start, start + 1));
+            if (gvi_step(&st, h) != GVI_OK) continue;
+            const real error = error_of(&st, start, exact, st.p);
+            if (error < (KIND == 1 ? R(1e-4) : R(1e-9))) continue;
+            wrong += 1;
+            silent += error > 100*st.resolution;
+        }
+    assert_true(wrong > 100 && 8*silent <= wrong);
+}
+
+TEST(coarse_dials_refuse_one_step_in_eight_at_most)
+{
+    unsigned long refused = 0, tries = 0;
+    for (int k = 0; k < 3; ++k) {
+        const gvi_desc desc = of(8, R(1e-3)/(real)(1 + 2*k*k));
+        gvi_stepper st = started(&desc, room, 0);
+        while (st.t < 200) assert_ok(gvi_advance(&st, 200));
+        refused += (unsigned long)st.counters.failures;
+        tries += (unsigned long)(st.counters.failures + st.counters.steps);
+    }
+    assert_true(8*refused <= tries);
+}
+
 TEST(h_stays_within_a_band)
 {
     /* Kepler, e = 0.01: the length that the limit allows varies by (1.01/0.99)^(3/2) */

@@ -4,7 +4,8 @@
    step: at random, degrees 3 to 16, lengths over eight octaves.  Each step is compared with the motion itself, in closed
    form or by extrapolation in long double.  Where its points show that something is there, the error is to be within a
    hundred times st.resolution.  They show it if the two highest modes of the velocity, as the forces at the points give
-   them, are at least a hundredth of the error: where they are not, no measure by modes can tell.            */
+   them, are at least a hundredth of the error: where they are not, no measure by modes can tell.  No theory says how many
+   of the others are missed: one in ten is the bound, and none of the jumps.                             */
 #include "hard.h"
 #include "../gauss.h"
 
@@ -197,8 +198,9 @@ int main(void)
             shown += found[degrees[d]][kind].shown;
             bad += found[degrees[d]][kind].bad;
         }
+        expect("jumps above 100 times the resolution", 0, (double)found[degrees[d]][JUMP].bad, 0);
         expect("wrong steps that the points show", 100, (double)shown, 1e6);
-        expect("of these above 100 times the resolution, their share", 0, (double)bad/(double)shown, 0.02);
+        expect("of these above 100 times the resolution, their share", 0, (double)bad/(double)shown, 0.1);
     }
     return verdict("measure");
 }

@@ -82,7 +82,9 @@ MUTANTS = [
     ("resolution", "if (!clock && left < st->next*(gvi_real)1.0625) h = left;", ""),
     ("resolution", "if (!clock && left < h*2) h = left/2;", ""),
     ("resolution api", "st->counters.worst_resolution = gvi__larger(st->resolution, st->counters.worst_resolution);", ""),
-    ("resolution", "if (left > GVI__BAND) up = ", "if (left > -1) up = "),
+    ("resolution", "if (lasts && left > GVI__BAND) up = ", "if (left > -1) up = "),
+    ("resolution", "lasts = dial->reach - at > GVI__BAND;", ""),
+    ("resolution", "fall = gvi__larger(flat, fall);", ""),
     ("resolution", "scale = forces ? 1/mass[i] : mass[i];", "scale = mass[i];"),
     # verdicts
     ("tolerance", "if (was > 0 && D > GVI__FAR*GVI__FAR) return 0;", ""),
