@@ -36,7 +36,7 @@ for page in README.md docs/guide.md docs/tools.md docs/scenes.md docs/embedded.m
         /^```/ && on  { on = 0; if (file ~ /\.out$/) open = ""; next }
         on && file != "" { print >file }' "$page"
 done
-cat examples/*.c examples/*.cpp examples/scenes/*.c examples/tools/*.h docs/playground/*.h tests/compile/*.c | sed 's/^ *//; s/ *$//' | grep -v '^$' >"$dir/all-code"
+cat examples/*.c examples/*.cpp examples/bare_metal/*.c examples/scenes/*.c examples/tools/*.h docs/playground/*.h tests/compile/*.c | sed 's/^ *//; s/ *$//' | grep -v '^$' >"$dir/all-code"
 for block in "$dir"/*-[0-9][0-9].c "$dir"/*-[0-9][0-9].cpp; do
     [ -f "$block" ] || continue
     if grep -q 'int main' "$block"; then
