@@ -197,6 +197,9 @@ kicks points: %: $(BUILD)/cost/%
 	$(Q)$< $(COST_ARGS)
 cost-constraints: cost-%: $(BUILD)/cost/%
 	$(Q)$< --out $(BUILD)/cost $(COST_ARGS)
+#: cost-rolling a disc that rolls, against methods of order 2 and DOP853 on equations without the rows (a minute)
+cost-rolling: cost-%: $(BUILD)/cost/%
+	$(Q)$<
 
 #: cost-embedded instructions of a step on Cortex-M4F and Cortex-M3 and what they buy (qemu-system-arm; 4 minutes)
 cost-embedded:
@@ -213,7 +216,7 @@ embedded-page:
 $(BUILD)/cost/%.o: tests/cost/%.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c99 $(WARNINGS) -Wno-double-promotion -Wno-unused-parameter -I. -Iexamples -Itests $(CPPFLAGS) -MMD -MP -MF $@.d -MT $@ $(COST_CFLAGS) -c $< -o $@
-$(BUILD)/cost/constraints $(BUILD)/cost/points: %: %.o
+$(BUILD)/cost/constraints $(BUILD)/cost/points $(BUILD)/cost/rolling: %: %.o
 	$(Q)$(CC) $< -o $@ $(LDLIBS)
 $(BUILD)/cost/kicks $(BUILD)/cost/cost: %: %.o $(addprefix $(BUILD)/cost/,problems.o baselines.o gvi_run.o)
 	$(Q)$(CC) $^ -o $@ $(LDLIBS)
