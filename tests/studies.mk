@@ -77,6 +77,10 @@ FUZZ_SECONDS = $(if $(filter fuzz,$(MAKECMDGOALS)),60,12)
 fuzz fuzz-short: | $(FIRST)
 	$(STEP) $@ sh tests/tools/under.sh fuzz $(BUILD) $(FUZZ_SECONDS)
 
+#: fuzz-rolling 200,000 random rolling scenes against an index-1 reference (a quarter of an hour); SEED=2: others
+fuzz-rolling fuzz-rolling-short: $(BUILD)/hard/rolling_scenes
+	$(STEP) $@ $< $(if $(findstring short,$@),2000,200000) $(SEED)
+
 #: deps-firmware installs what firmware, size and boards need: compilers for Arm, RISC-V and AVR, qemu, simavr
 deps-firmware: | $(filter deps deps-check,$(MAKECMDGOALS))
 	$(Q)sh tests/tools/deps.sh --firmware
@@ -197,7 +201,7 @@ kicks points: %: $(BUILD)/cost/%
 	$(Q)$< $(COST_ARGS)
 cost-constraints: cost-%: $(BUILD)/cost/%
 	$(Q)$< --out $(BUILD)/cost $(COST_ARGS)
-#: cost-rolling a disc that rolls, against methods of order 2 and DOP853 on equations without the rows (a minute)
+#: cost-rolling a rolling disc: gvi.h, DOP853 and the midpoint rule on reduced equations (half a minute)
 cost-rolling: cost-%: $(BUILD)/cost/%
 	$(Q)$<
 
@@ -231,7 +235,7 @@ mutants: | $(FIRST)
 
 # -- hard cases and theorems, measured
 
-HARD     = random dial lucky constraints constraints-float eccentric flyby roots eccentric-float pythagorean corners corners-float stiff long long-float brouwer brouwer-float walk drift
+HARD     = random dial lucky constraints constraints-float eccentric flyby roots eccentric-float pythagorean corners corners-float stiff long long-float brouwer brouwer-float walk drift rolling
 ORDERS   = order rules constant counterexample lagrangian curve forced
 THEOREMS = spectral inertia stability modified
 # Orders need more digits than long double has on x86.
