@@ -251,7 +251,7 @@ $(BUILD)/hard/% $(BUILD)/theorems/%: tests/$$(notdir $$(@D))/$$*.c | $(FIRST)
 	@mkdir -p $(@D)
 	$(Q)$(COMPILE) $(TESTFLAGS) $< -o $@ $(LDLIBS)
 
-#: hard         hard cases at length, docs/hard-cases.md (eight minutes); one: make hard-drift; SEED=11: other random numbers;
+#: hard         hard cases at length, docs/hard-cases.md (twelve minutes); one: make hard-drift; SEED=11: other random numbers;
 #:              make hard-random RANDOM_SECONDS=3600: random scenes of all kinds for an hour
 hard: $(HARD:%=hard-%)
 $(HARD:%=hard-%): hard-%: $(BUILD)/hard/%
