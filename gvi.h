@@ -501,7 +501,8 @@ typedef enum gvi_status {
     GVI_E_NON_FINITE  = -10, /* NaN or Inf came out of an effect (fault.effect); fault.point
                                 is GVI_FAULT_NONE: already where the step starts    */
     GVI_E_VALUE       = -11, /* an effect (fault.effect) has no value                   */
-    GVI_E_STATE       = -12, /* called too early, or for a time outside the last step   */
+    GVI_E_STATE       = -12, /* not started, no step yet, or a time outside the last step: ask
+                                for it after the step that passes it                */
     GVI_E_CONJUGATE   = -13, /* boundary values do not determine the curve              */
     GVI_E_CLOCK       = -14, /* a clock's g is not positive (fault.effect, fault.point) */
     GVI_E_CONSTRAINT  = -15, /* the state given is not on a constraint (fault.effect, its row in
@@ -1103,7 +1104,7 @@ typedef struct gvi_discrete {
 
 /* ------------------------------------------------------------- FUNCTIONS */
 
-/* Set-up.
+/* Set-up comes first.
      gvi_size   bytes of memory that desc needs; 0 if its sizes, kinds or callbacks are refused:
                 gvi_init, even with a NULL memory, then returns why
      gvi_init   makes st a stepper for desc that works in memory, size bytes of the caller's
@@ -1112,11 +1113,11 @@ typedef struct gvi_discrete {
 GVI_DEF size_t     gvi_size(const gvi_desc *desc);
 GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size);
 
-/* Start at time t.
+/* These start at time t.
      gvi_start                  starts from configuration and velocity
      gvi_start_momentum         starts from configuration and momentum
      gvi_start_configurations   starts from q0 at t and q1 at t + h (solves the boundary-value
-                                problem; conjugate points: below; no constraints)
+                                problem; see gvi_discrete_lagrangian; no constraints)
    The first start with a constraint, and gvi_project before it, see that it fills all points, and
    compare its jacobian and rate with differences of g next to (t, q).  An entry that is off by more
    than 1/512 of itself, and more than rounding hides (in float most of 1 %), is refused:
@@ -1131,8 +1132,8 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
                                             const gvi_real *q0, const gvi_real *q1);
 #endif
 
-/* q and v [n], in place, to the nearest that fulfil the constraints that are on, at t, to rounding:
-   q such that (q' - q)'M(q' - q) is least, then v likewise, M that there (with Lagrangian terms
+/* Moves q and v [n] to the nearest that fulfil the constraints that are on, at t, to rounding: q
+   such that (q' - q)'M(q' - q) is least, then v likewise, M that there (with Lagrangian terms
    d2L/dv2).  For coordinates from a file; then gvi_start takes them.  moved, or NULL: the lengths
    sqrt(dq'M dq), sqrt(dv'M dv) of what was added to q and v.  The state and the switches stay (last
    places of later steps may not): for a constraint to come, where the state is off it, gvi_init,
@@ -1161,8 +1162,8 @@ GVI_DEF gvi_status gvi_steps(gvi_stepper *st, gvi_real h, int count);
    The length is st.next, found at first from short steps, kept while the accuracy stays within
    a band; what is left is divided so that the last step is no shorter than half of it.  A step
    that fails is tried again, shorter, 64 times at most or until t would not move: then its status
-   is returned.  With
-   a clock the length is in tau, and the step may pass t_end: gvi_state_at has the state there. */
+   is returned.  With a clock the length is in tau, and the step may pass t_end: gvi_state_at has
+   the state there.                                                                            */
 #ifndef GVI_NO_DIAL
 GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end);
 #endif
@@ -1173,7 +1174,7 @@ GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end);
    GVI_E_CONSTRAINT elsewhere.                                                                 */
 GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on);
 
-/* At the present state:
+/* These ask about the present state.
      gvi_velocity   v[n], by the inverse Legendre transform
      gvi_energy     p'v - L, which needs the value of each potential and Lagrangian term
                     that is on                                                               */
@@ -1189,8 +1190,9 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda);
 #endif
 
-/* In the last step; q, v, p of length n, or NULL.  What later steps compute stays the same, to the
-   bit.  A broken line has neither curve nor action, a clock no action: GVI_E_FORMULATION.
+/* These ask about the last step; q, v, p have length n or are NULL.  What later steps compute stays
+   the same, to the bit.  A broken line has neither curve nor action, a clock no action:
+   GVI_E_FORMULATION.
      gvi_curve      the polynomial at tau in [0,1] and its derivative, error O(h^(min(s,u-s+1)+1))
                     and one order less; with a clock tau is its own time, and v still dq/dt
      gvi_state_at   the state at time t (a time, not tau), at the full order, by a partial step from
@@ -1230,9 +1232,9 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
 GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory);
 #endif
 
-/* Sentences; do not free them.
+/* These strings are not the caller's to free.
      gvi_why                what went wrong in the last call and what to do, "ok" if nothing did
-     gvi_status_text        the same, as far as a status alone can say
+     gvi_status_text        what gvi_why says, as far as a status alone can say it
      gvi_formulation_text   why st uses its formulation
      gvi_stepper_size       sizeof(gvi_stepper), for other languages                           */
 GVI_DEF const char *gvi_why(const gvi_stepper *st);
@@ -1253,12 +1255,12 @@ GVI_DEF gvi_status gvi_lobatto(int n, gvi_real *c, gvi_real *b);
    with GVI_OWN.                                                                               */
 GVI_DEF int        gvi_rule_order(int n, const gvi_real *c, const gvi_real *b);
 
-/* Barycentric interpolation [6] through n distinct nodes x in any order, at any t: inside, outside,
-   at and near a node.
+/* These interpolate [6] through n distinct nodes x in any order, at any t: inside, outside, at and
+   near a node.
      gvi_barycentric             the weights w, scaled so that max |w| = 1; GVI_E_NODES if two nodes
                                  coincide or the smallest weight leaves the range of gvi_real
      gvi_interpolate             sum_j f[j] l_j(t)
-     gvi_interpolate_derivative  its derivative; exactly 0 for a constant
+     gvi_interpolate_derivative  sum_j f[j] l_j'(t); exactly 0 for a constant
      gvi_basis                   l[j] = l_j(t)
      gvi_basis_derivative        l[j] = l_j'(t)                               */
 GVI_DEF gvi_status gvi_barycentric(int n, const gvi_real *x, gvi_real *w);
@@ -1338,7 +1340,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__DIAL_LENGTH(R) (6*(R))
 #endif
 
-/* The same with constraints, m rows in all.                                   */
+/* GVI_LENGTH with constraints, m rows in all.                                 */
 #define GVI_CONSTRAINED_LENGTH(n, s, r, m) (GVI_LENGTH(n, s, r)                  \
     + (GVI__SIZE(m)*(GVI__SIZE(n) + 2) + GVI__SIZE(r))*GVI__SIZE(GVI__ROW(r))     \
     + (6*GVI__SIZE(n) + 3*GVI__SIZE(m) + 2*GVI__SIZE(r) + 5*GVI__SIZE(s) + 4 + (4 + GVI__SIZE(m)) \

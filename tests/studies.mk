@@ -77,6 +77,10 @@ FUZZ_SECONDS = $(if $(filter fuzz,$(MAKECMDGOALS)),60,12)
 fuzz fuzz-short: | $(FIRST)
 	$(STEP) $@ sh tests/tools/under.sh fuzz $(BUILD) $(FUZZ_SECONDS)
 
+#: fuzz-rolling 200,000 random rolling scenes against an index-1 reference (a quarter of an hour); SEED=2: others
+fuzz-rolling fuzz-rolling-short: $(BUILD)/hard/rolling_scenes
+	$(STEP) $@ $< $(if $(findstring short,$@),2000,200000) $(SEED)
+
 #: deps-firmware installs what firmware, size and boards need: compilers for Arm, RISC-V and AVR, qemu, simavr
 deps-firmware: | $(filter deps deps-check,$(MAKECMDGOALS))
 	$(Q)sh tests/tools/deps.sh --firmware
@@ -197,6 +201,9 @@ kicks points: %: $(BUILD)/cost/%
 	$(Q)$< $(COST_ARGS)
 cost-constraints: cost-%: $(BUILD)/cost/%
 	$(Q)$< --out $(BUILD)/cost $(COST_ARGS)
+#: cost-rolling a rolling disc: gvi.h, DOP853 and the midpoint rule on reduced equations (half a minute)
+cost-rolling: cost-%: $(BUILD)/cost/%
+	$(Q)$<
 
 #: cost-embedded instructions of a step on Cortex-M4F and Cortex-M3 and what they buy (qemu-system-arm; 4 minutes)
 cost-embedded:
@@ -213,7 +220,7 @@ embedded-page:
 $(BUILD)/cost/%.o: tests/cost/%.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c99 $(WARNINGS) -Wno-double-promotion -Wno-unused-parameter -I. -Iexamples -Itests $(CPPFLAGS) -MMD -MP -MF $@.d -MT $@ $(COST_CFLAGS) -c $< -o $@
-$(BUILD)/cost/constraints $(BUILD)/cost/points: %: %.o
+$(BUILD)/cost/constraints $(BUILD)/cost/points $(BUILD)/cost/rolling: %: %.o
 	$(Q)$(CC) $< -o $@ $(LDLIBS)
 $(BUILD)/cost/kicks $(BUILD)/cost/cost: %: %.o $(addprefix $(BUILD)/cost/,problems.o baselines.o gvi_run.o)
 	$(Q)$(CC) $^ -o $@ $(LDLIBS)
@@ -228,7 +235,7 @@ mutants: | $(FIRST)
 
 # -- hard cases and theorems, measured
 
-HARD     = random dial measure lucky constraints constraints-float eccentric flyby roots eccentric-float pythagorean corners corners-float stiff long long-float brouwer brouwer-float walk drift
+HARD     = random dial measure lucky constraints constraints-float eccentric flyby roots eccentric-float pythagorean corners corners-float stiff long long-float brouwer brouwer-float walk drift rolling
 ORDERS   = order rules constant counterexample lagrangian curve forced
 THEOREMS = spectral inertia stability modified
 # Orders need more digits than long double has on x86.
@@ -244,7 +251,7 @@ $(BUILD)/hard/% $(BUILD)/theorems/%: tests/$$(notdir $$(@D))/$$*.c | $(FIRST)
 	@mkdir -p $(@D)
 	$(Q)$(COMPILE) $(TESTFLAGS) $< -o $@ $(LDLIBS)
 
-#: hard         hard cases at length, docs/hard-cases.md (eight minutes); one: make hard-drift; SEED=11: other random numbers;
+#: hard         hard cases at length, docs/hard-cases.md (twelve minutes); one: make hard-drift; SEED=11: other random numbers;
 #:              make hard-random RANDOM_SECONDS=3600: random scenes of all kinds for an hour
 hard: $(HARD:%=hard-%)
 $(HARD:%=hard-%): hard-%: $(BUILD)/hard/%

@@ -1,10 +1,11 @@
 /* scenes.h - the scenes of the playground: to add one, write thirty lines here
 
    A scene is a list of effects (examples/tools/effects.h), initial values, and what to draw; add it to
-   scenes[] at the end, then `make playground`.  elastic_pendulum is the shortest; docs/scenes.md has a table.
+   scenes[] at the end, then `make playground`.  elastic_pendulum is the shortest.
 
-   SHOWN(name, text)    the text as C and, for the program that the page writes, as a string
-   ADD(s, name, what, on, effect)    a switch on the page; on = 1: on at first
+   SHOWN(name, text)    the text as C and, for the program that the page writes, as a string: it
+                        shows only what the effects in use need
+   ADD(s, name, what, on, effect)    a switch on the page; on = 1: on at first.  A clock is the last
    INSTEAD(s, effect)   the same as a force, for integrators that know no Lagrangian terms; { 0 }: nothing
    MASS(s, mass)        if it is not the unit mass
 

@@ -40,6 +40,9 @@
    Source: the doubled Lagrangian L(q + e l) - L(q) + e l.f, to first order in e.   */
 #ifndef ADJOINT_H
 #define ADJOINT_H
+#if defined __cplusplus && defined __GNUC__
+#pragma GCC system_header          /* C++ would warn of fields that an initialiser does not name */
+#endif
 
 #include "tangent.h"
 

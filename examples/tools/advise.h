@@ -29,6 +29,9 @@
    is in.  Cost is CPU time, or counted: see advise_counted.                   */
 #ifndef ADVISE_H
 #define ADVISE_H
+#if defined __cplusplus && defined __GNUC__
+#pragma GCC system_header          /* C++ would warn of fields that an initialiser does not name */
+#endif
 
 #include "gvi.h"
 #include <math.h>

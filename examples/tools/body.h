@@ -31,6 +31,9 @@
    2009, with the scale left free in place of their constraint, or with both.       */
 #ifndef BODY_H
 #define BODY_H
+#if defined __cplusplus && defined __GNUC__
+#pragma GCC system_header          /* C++ would warn of fields that an initialiser does not name */
+#endif
 
 #include "gvi.h"
 typedef struct body { gvi_real mass, inertia[3]; } body;

@@ -37,6 +37,9 @@
    its memory, some n*n numbers, from malloc.                                  */
 #ifndef CHECK_H
 #define CHECK_H
+#if defined __cplusplus && defined __GNUC__
+#pragma GCC system_header          /* C++ would warn of fields that an initialiser does not name */
+#endif
 
 #include "gvi.h"
 #include <stdio.h>                    /* snprintf, for check_line alone        */

@@ -34,6 +34,9 @@
      rods              constraints: particles at fixed distances, also from fixed points */
 #ifndef EFFECTS_H
 #define EFFECTS_H
+#if defined __cplusplus && defined __GNUC__
+#pragma GCC system_header          /* C++ would warn of fields that an initialiser does not name */
+#endif
 
 #include "gvi.h"
 #include <math.h>

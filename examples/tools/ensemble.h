@@ -27,6 +27,9 @@
           ensemble_end();                                                           */
 #ifndef ENSEMBLE_H
 #define ENSEMBLE_H
+#if defined __cplusplus && defined __GNUC__
+#pragma GCC system_header          /* C++ would warn of fields that an initialiser does not name */
+#endif
 
 #include <stdio.h>
 #include <string.h>

@@ -21,7 +21,8 @@
      not seen    two zeros within one interval: the sign is the same at its ends.  Take h (with
                  gvi_advance: t_end) so short that g has one extremum in a step at most
      output_at   output_at(&st, h, t, q, v, p): steps of h past t, and the state at t there; q, v,
-                 p are [st.n] each, or NULL
+                 p are [st.n] each, or NULL.  By the dial: gvi_advance until t is passed, then
+                 gvi_state_at, with t_end no earlier than the last of the times (02_comet.c)
      ask         after every step; a step not asked about is not searched
      kicks and a clock have no curve over t: states are taken instead, at a partial step each
 

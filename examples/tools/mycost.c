@@ -91,6 +91,7 @@ int main(int argc, char **argv)
     static const char *const names[] = { "degree 1", "degree 2", "degree 4", "degree 8", "degree 16", "the dial" };
     static double x[DEGREES + 1][MOST], y[DEGREES + 1][MOST];
     svg_line lines[DEGREES + 1];
+    int drawn = 0;
     gvi_desc desc = _Generic(mine, lagrangian_function: of_l, default: of_desc)(&mine);
     if (!desc.n) return 1;
     double *right = calloc(3*(size_t)desc.n, sizeof *right), *other = right + desc.n, *q = other + desc.n, seconds;
@@ -115,10 +116,11 @@ int main(int argc, char **argv)
             y[d][count++] = p.error;
             if (p.seconds > 0.5) break;
         }
-        lines[d] = (svg_line){ names[d], x[d], y[d], count };
+        if (count > 1) lines[drawn++] = (svg_line){ names[d], x[d], y[d], count };
+        else printf("%-10s is not drawn: fewer than two errors from %.0e to 1\n", names[d], floor_of);
     }
     const svg_plot plot = { .title = "What accuracy costs", .x_label = "CPU time, in s", .y_label = "error of q at the end",
-                            .log_x = 1, .log_y = 1, .lines = lines, .line_count = DEGREES + 1 };
+                            .log_x = 1, .log_y = 1, .lines = lines, .line_count = drawn };
     const char *path = argc > 1 ? argv[1] : "mycost.svg";
     if (svg_write(path, &plot)) return perror(path), 1;
     printf("\n%s\n", path);

@@ -19,6 +19,9 @@
    Source: multiple-shooting textbooks, with one interval; Stoer and Bulirsch, 7.3.1.   */
 #ifndef SHOOTING_H
 #define SHOOTING_H
+#if defined __cplusplus && defined __GNUC__
+#pragma GCC system_header          /* C++ would warn of fields that an initialiser does not name */
+#endif
 
 #include "tangent.h"
 

@@ -1,5 +1,9 @@
 /* svg.h - plots and tables as SVG files, for programs that use gvi.h
 
+     const svg_line lines[] = { { "angle", t, q, count } };          // a name, x and y [count]
+     const svg_plot plot = { .title = "A pendulum", .x_label = "t", .y_label = "q", .lines = lines, .line_count = 1 };
+     if (svg_write("pendulum.svg", &plot)) perror("pendulum.svg");    // 0: written
+
    One call writes one picture: lines with a legend, linear or logarithmic
    axes, ticks at round numbers; several panels side by side; tables whose cells
    are coloured.  Points that an axis cannot show (0 or less on a logarithmic

@@ -52,6 +52,9 @@
    with differentiation, Bochev and Scovel, BIT 34, 1994.                      */
 #ifndef TANGENT_H
 #define TANGENT_H
+#if defined __cplusplus && defined __GNUC__
+#pragma GCC system_header          /* C++ would warn of fields that an initialiser does not name */
+#endif
 
 #include "gvi.h"
 #include <stddef.h>

@@ -12,7 +12,7 @@
    two points, if the next finer point confirms it (at most twice the error).  What comes within
    a quarter of the fastest is timed again, in turn: a machine's speed wanders within minutes.
    Energy: largest |E - E0|/|E0| at about 400 times, in a run of its own that is not timed.
-   Written: DIR/P1.csv and P1.svg and so on, the tables of docs/cost.md to DIR/table.md; all tables and the
+   Written: DIR/P1.csv and P1.svg and so on, the table of docs/cost.md to DIR/table.md; all tables and the
    summary to stdout.                                                                          */
 #define _POSIX_C_SOURCE 200809L
 
@@ -620,26 +620,22 @@ static void put_ratio(FILE *f, const char *before, double x, const char *after)
     else fprintf(f, "%s-%s", before, after);
 }
 
-/* For docs/cost.md: gvi.h against its rivals, and its own degree 8 against its best setting    */
-static void write_tables(const study *studies, int count, const options *o)
+/* For docs/cost.md: gvi.h against its rivals                                                   */
+static void write_table(const study *studies, int count, const options *o)
 {
     FILE *f = create(o, "table", ".md");
     if (!f) return;
-    for (int own = 0; own < 2; ++own) {
-        if (own) fprintf(f, "\n| degree 8, tolerance 0 (and 1e-5 of the error)");
-        else fprintf(f, "| best rival (best that keeps the structure)");
-        for (int e = 0; e < ERRORS; ++e) fprintf(f, " | %.0e", wanted[e]);
-        fprintf(f, " |\n|---|---|---|---|---|\n");
-        for (int i = 0; i < count; ++i) {
-            if (own) fprintf(f, "| %s |", studies[i].p->key);
-            else fprintf(f, "| [%s](img/cost/%s.svg) %s |", studies[i].p->key, studies[i].p->key, studies[i].p->title);
-            for (int e = 0; e < ERRORS; ++e) {
-                const cell c = cell_of(studies + i, e);
-                put_ratio(f, " ", own ? c.rounding : c.ratio, "");
-                put_ratio(f, " (", own ? c.rule : c.structure, ") |");
-            }
-            fprintf(f, "\n");
+    fprintf(f, "| best rival (best that keeps the structure)");
+    for (int e = 0; e < ERRORS; ++e) fprintf(f, " | %.0e", wanted[e]);
+    fprintf(f, " |\n|---|---|---|---|---|\n");
+    for (int i = 0; i < count; ++i) {
+        fprintf(f, "| [%s](img/cost/%s.svg) %s |", studies[i].p->key, studies[i].p->key, studies[i].p->title);
+        for (int e = 0; e < ERRORS; ++e) {
+            const cell c = cell_of(studies + i, e);
+            put_ratio(f, " ", c.ratio, "");
+            put_ratio(f, " (", c.structure, ") |");
         }
+        fprintf(f, "\n");
     }
     fclose(f);
 }
@@ -649,7 +645,7 @@ static void summarise(const study *studies, int count, const options *o)
     summary_head();
     for (int i = 0; i < count; ++i)
         for (int e = 0; e < ERRORS; ++e) summary_row(studies + i, e);
-    write_tables(studies, count, o);
+    write_table(studies, count, o);
 }
 
 /* ---------------------------------------------------------------- horizon */

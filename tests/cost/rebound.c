@@ -105,7 +105,7 @@ int main(int argc, char **argv)
         double own[COUNT(wanted)], other[COUNT(wanted)];
         least(by_dial, p, 1e-3, 1e-15, wanted, COUNT(wanted), own);
         least(by_ias15, p, 1e-4, 1e-13, wanted, COUNT(wanted), other);
-        fprintf(out, "| %s %s |", p->key, p->title);
+        fprintf(out, "| %s |", p->key);
         put(out, " ", own[0]);
         put(out, "; ", own[1]);
         put(out, " | ", other[0]/own[0]);

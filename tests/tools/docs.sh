@@ -1,7 +1,7 @@
 #!/bin/sh
 # docs.sh BUILD OBJECT: what the documents show is what the files are.
 #   1  gvi.h's SYNOPSIS, examples/01_kepler.c and the README: the same program, the same output
-#   2  every complete program in README, guide, tools, scenes and embedded: compiled, run, compared with the output below it
+#   2  every complete program in README, guide, tools, scenes, embedded and languages: compiled, run, compared with the output below it
 #   3  every other piece of C in them stands in an example or in tests/compile
 #   4  the version: first line and macro of gvi.h, first entry of the changelog
 #   5  every relative link leads to a file, and its #anchor to a heading
@@ -25,7 +25,7 @@ awk '/^```c$/ { on = 1; next } on && /^```/ { exit } on' README.md | diff -u "$d
 count=$((count + 3))
 
 # -- 2 and 3: blocks as files, NAME-k.c and the block after it as NAME-k.out
-for page in README.md docs/guide.md docs/tools.md docs/scenes.md docs/embedded.md; do
+for page in README.md docs/guide.md docs/tools.md docs/scenes.md docs/embedded.md docs/languages.md; do
     name=$(basename "$page" .md)
     awk -v base="$dir/$name" '
         /^```/ && !on { on = 1; language = substr($0, 4); file = ""
@@ -36,7 +36,7 @@ for page in README.md docs/guide.md docs/tools.md docs/scenes.md docs/embedded.m
         /^```/ && on  { on = 0; if (file ~ /\.out$/) open = ""; next }
         on && file != "" { print >file }' "$page"
 done
-cat examples/*.c examples/*.cpp examples/scenes/*.c examples/tools/*.h docs/playground/*.h tests/compile/*.c | sed 's/^ *//; s/ *$//' | grep -v '^$' >"$dir/all-code"
+cat examples/*.c examples/*.cpp examples/bare_metal/*.c examples/scenes/*.c examples/tools/*.h docs/playground/*.h tests/compile/*.c | sed 's/^ *//; s/ *$//' | grep -v '^$' >"$dir/all-code"
 for block in "$dir"/*-[0-9][0-9].c "$dir"/*-[0-9][0-9].cpp; do
     [ -f "$block" ] || continue
     if grep -q 'int main' "$block"; then

@@ -10,7 +10,7 @@ folder, record = sys.argv[1], '--record' in sys.argv
 page = open(PAGE).read().split('\n')
 printed = {name: open(f'{folder}/{name}.txt').read().split('\n')
            for name in ('boards', 'firmware', 'size', 'chapters', 'cost')}
-differs, missing = 0, []
+differs, missing, read = 0, [], []
 
 
 def commas(x):
@@ -46,6 +46,8 @@ def boards():
     for board in dict.fromkeys(r[0] for r in rows):
         for name, of in (('explicit', ['explicit']), ('positions, velocities, momenta', ['positions', 'velocities', 'momenta'])):
             mine = [r for r in rows if r[0] == board and r[1] in of]
+            if not any(x.startswith(f'| {board} | explicit') for x in page):
+                continue
             figures = [span([int(r[k]) for r in mine]) for k in (2, 3, 4, 5)]
             label = [board if name == 'explicit' else '', name]
             put(label, figures + [mine[0][6].replace('with the macros', 'chosen')], f'| {board} | explicit')
@@ -75,11 +77,11 @@ def size():
 
 
 def chapters():
-    names = {'everything': 'everything', 'core': '`GVI_CORE`', 'only explicit': '`GVI_ONLY_EXPLICIT`'}
     for row in (cells(x) for x in printed['chapters'] if x.startswith('|')):
-        if row[0] in names or row[0].startswith('`GVI_NO'):
-            put([names.get(row[0], row[0])], [commas(x) for x in row[1:]],
-                '| | Cortex-M4F, float | x86-64' if row[0] in names else '| chapter |')
+        if row[0].startswith('`GVI_NO'):
+            put([row[0]], [commas(x) for x in row[1:3]], '| chapter |')
+        elif row[0] in ('everything', 'core'):
+            read.append(f'{row[0]}: {commas(row[1])}')
 
 
 def cost():
@@ -93,7 +95,7 @@ def cost():
         if line.startswith('|'):
             parts.setdefault((kind, part), []).append(cells(line))
     tables = {'Orbit, h': ('float', 'orbit of eccentricity 0.3'), 'Arm of two links': ('float', 'arm of two links, M(q), no friction'),
-              '| steps a second': ('float', 'steps a second'), '| scene, type': ('', 'scene'), '| you have': None}
+              '| scene, type': ('', 'scene')}
     table = None
     for i, line in enumerate(list(page)):
         table = next((t for begin, t in tables.items() if line.startswith(begin)), table)
@@ -105,13 +107,15 @@ def cost():
             known, of = [scene, row[1]], (kind, 'scene')
         else:
             known, of = [row[0].replace('`mass.velocity`', 'v given')], table
-            known += [row[1].split(':')[0]] if table[1] != 'steps a second' else []
+            known += [row[1].split(':')[0]]
         found = [r for r in parts[of] if [r[0], r[1].split(':')[0]][:len(known)] == known]
         if len(found) != 1:
             missing.append(' | '.join(row[:2]))
             continue
         new = found[0][1:]
-        if table[1] == 'scene':
+        if table[1] != 'scene':
+            del new[3]                                          # the first three steps
+        else:
             new[1:3] = new[1].replace(' by hand', ''), new[2].replace('v given', '`mass.velocity`')
         put([row[0], row[1]] if table[1] == 'scene' else [row[0]] + ([new[0]] if len(known) > 1 else []),
             new[1:] if table[1] == 'scene' or len(known) > 1 else new, line[:40])
@@ -120,6 +124,7 @@ def cost():
 boards(), firmware(), size(), chapters(), cost()
 for name in missing:
     print('no such row:', name)
+print('\n'.join(read))
 print('\n'.join(x for x in printed['firmware'] + printed['size'] if re.match(r' +(arm-own|m4f: stepper)', x)))
 if record:
     open(PAGE, 'w').write('\n'.join(page))

@@ -191,10 +191,12 @@ for f in functions:
     if f.name in f.items:
         put(sentence(linked(escaped(" ".join(f.items[f.name])), [f.name])) + "\n")
         common = [line for line in f.comment if not line.startswith("  ")]
+        names = list(f.items)
+        common = [re.sub("^These (start|ask|interpolate)", r"%s and %s \1" % (", ".join(names[:-1]), names[-1]), line) for line in common]
         if f.lead is f:
             put(prose(common, [f.name]) + "\n")
-        elif len(" ".join(common).split()) > 5:
-            put("What it has in common with others: [%s](#%s).\n" % (f.lead.name, links[f.lead.name]))
+        elif len(" ".join(common).split()) > 8:
+            put("The rest is said with [%s](#%s).\n" % (f.lead.name, links[f.lead.name]))
     elif f.lead is f:
         put(prose(f.comment, [f.name]) + "\n")
     else:
