@@ -11,7 +11,7 @@
 /* Sine (turns = 0) and cosine (1), to about an ulp for |x| below 8000; NaN beyond, which ends in a
    status.  Without branches or integers, so that loops over points become vectors.  Of the pieces
    of pi/2 the first two have 8 and 11 bits: their products with n are exact.              */
-static inline double bounded_sine(double x, double turns)
+static double bounded_sine(double x, double turns)
 {
     const double n = __builtin_floor(x*0.63661977236758134308 + 0.5), k = n + turns;
     const double half = __builtin_floor(k/2), odd = k - 2*half, lower = half - 2*__builtin_floor(half/2);
@@ -35,6 +35,7 @@ static inline double bounded_sine(double x, double turns)
 #define GVI_STATIC
 #include "gvi.h"
 #include "rivals.h"
+#include "own.h"
 
 #ifdef __wasm__
 #define EXPORT(name) __attribute__((export_name(#name))) name
@@ -59,6 +60,7 @@ typedef struct world {
     double       dial, from;                         /* desc.resolution; where world_open began */
     double       t, q[SCENE_MOST], v[SCENE_MOST], p[SCENE_MOST], before[SCENE_MOST];
     double       total[SCENE_EFFECTS], steps, iterations, evaluations;
+    lagrangian   own;                                /* of the visitor's scene             */
     rival        rival;
     int          method;                             /* of a race; 0: gvi.h                */
     double       step, end, done, count;             /* of a race                          */
@@ -70,9 +72,12 @@ static double out[3*SCENE_BODIES + 2*SCENE_MOST];
 static double values[SCENE_PARAMETERS + 1];          /* the last one: the dial, 0 for none */
 static double own_nodes[18], own_weights[18];
 
+enum { SCENES = sizeof scenes/sizeof *scenes };
+
+/* The visitor's own is the last one.                                                      */
 static const scene *scene_at(int i)
 {
-    return i >= 0 && i < (int)(sizeof scenes/sizeof *scenes) ? scenes[i] : NULL;
+    return i >= 0 && i < SCENES ? scenes[i] : i == SCENES ? &own_scene : NULL;
 }
 
 static void scene_ready(const scene *a, scene_setup *s, const double *value)
@@ -84,7 +89,7 @@ static void scene_ready(const scene *a, scene_setup *s, const double *value)
 
 /* ------------------------------------------------ what the page asks about scenes */
 
-int EXPORT(scene_count)(void) { return (int)(sizeof scenes/sizeof *scenes); }
+int EXPORT(scene_count)(void) { return SCENES + 1; }
 
 const char *EXPORT(scene_text)(int scene, int field, int i)
 {
@@ -147,6 +152,15 @@ double EXPORT(scene_number)(int scene, int field, int i)
 }
 
 /* ------------------------------------------------------------------ a world */
+
+/* The visitor's Lagrangian, own.h: to be filled before own_take, which says what is wrong or nothing. */
+double *EXPORT(own_room)(void) { return own_typed; }
+
+const char *EXPORT(own_take)(int n, int length, int whole, int points, double span)
+{
+    const char *wrong = own_set(n, length, whole, points, span);
+    return wrong ? wrong : "";
+}
 
 /* To be filled before world_open.                                                         */
 double *EXPORT(parameters)(void) { return values; }
@@ -231,6 +245,7 @@ int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, 
     w->chosen[1] = rule;
     w->dial = dial;
     scene_ready(a, &w->setup, values);
+    if (a == &own_scene) own_mount(&w->setup, &w->own);
     if (!keep) {                                     /* to be seen even if it does not start */
         w->t = 0;
         memcpy(w->q, w->setup.q, sizeof w->q);
@@ -368,8 +383,9 @@ const char *EXPORT(status_text)(int which, int status)
 
 const char *EXPORT(world_call)(int which) { return worlds[(unsigned)which%WORLDS].call; }
 
-static double *world_picture(const world *w, const double *q)
+static double *world_picture(const world *w, double t, const double *q)
 {
+    own.time = t;
     w->scene->place(q, w->on, (double (*)[3])(void *)out);
     return out;
 }
@@ -393,7 +409,7 @@ double *EXPORT(world_place)(int which, double t)
         } else if (gvi_curve(&w->st, tau, q, NULL) != GVI_OK)
             for (int i = 0; i < w->scene->n; ++i) q[i] = w->before[i] + tau*(w->st.q[i] - w->before[i]);
     }
-    return world_picture(w, q);
+    return world_picture(w, t, q);
 }
 
 /* And on its curve, tau from 0 to 1.                                                      */
@@ -404,7 +420,7 @@ double *EXPORT(world_curve)(int which, double tau)
     if (!w->open || gvi_curve(&w->st, tau, q, NULL) != GVI_OK)
         for (int i = 0; i < w->scene->n; ++i)
             q[i] = w->open ? w->before[i] + tau*(w->st.q[i] - w->before[i]) : w->q[i];
-    return world_picture(w, q);
+    return world_picture(w, w->st.t - (1 - tau)*w->st.h, q);
 }
 
 /* --------------------------------------- Runge-Kutta 4, next to what one sees */
@@ -425,7 +441,11 @@ int EXPORT(ghost_advance)(int which, double h, int count)
     return GVI_OK;
 }
 
-double *EXPORT(ghost_place)(int which) { return world_picture(&worlds[(unsigned)which%WORLDS], worlds[(unsigned)which%WORLDS].rival.y); }
+double *EXPORT(ghost_place)(int which)
+{
+    const world *w = &worlds[(unsigned)which%WORLDS];
+    return world_picture(w, w->rival.t, w->rival.y);
+}
 
 /* -------------------------------------------------------------------- races */
 
