@@ -14,7 +14,7 @@ WASM_FLAGS = --target=wasm32-wasi -mexec-model=reactor -Os -mbulk-memory -mnontr
 # The same text natively, for the test
 PLAYGROUND_FLAGS = -std=c99 -ffp-contract=off -I. -Iexamples -Wall -Wextra -Wno-unused-const-variable
 
-.PHONY: playground playground-test playground-bits playground-page deps-playground
+.PHONY: playground playground-test playground-bits playground-typed playground-page deps-playground
 
 #: playground   builds docs/playground/index.html, gvi.h in a browser (make deps-playground)
 playground: docs/playground/index.html
@@ -38,10 +38,13 @@ deps-playground:
 	$(Q)sh tests/playground/deps.sh $(PLAYGROUND)
 
 #: playground-test  the playground's numbers to the bit, and the page in a headless Chromium
-playground-test: playground-bits playground-page
+playground-test: playground-bits playground-typed playground-page
 
 playground-bits: $(PLAYGROUND)/native $(PLAYGROUND)/gvi.wasm
 	$(Q)node tests/playground/bits.mjs $^
+
+playground-typed: $(PLAYGROUND)/gvi.wasm
+	$(Q)node tests/playground/typed.mjs $< $(PLAYGROUND)
 
 playground-page: docs/playground/index.html
 	$(Q)node tests/playground/page.mjs $< $(PLAYGROUND)

@@ -157,7 +157,7 @@ function lagrange(text) {
     if (kind === '-' && left[0] === 'number' && !left[1]) return within(1, '-' + C(right, 2));
     return /[+-]/.test(kind) ? within(1, `${a(1)} ${kind} ${b(2)}`) : within(2, a(2) + kind + b(3));
   }
-  const fold = line => line.replace(/(.{70,95}?) ([+-]) /g, '$1\n               $2 ');
+  const fold = line => line.replace(/(.{45,68}?) ([+-]) /g, '$1\n            $2 ');
   const body = ['return ' + C(lines.get('L'), 0)];
   for (const name of used.reverse()) if (met.has(name)) {
     const { c } = values.get(name);

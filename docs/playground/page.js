@@ -757,7 +757,7 @@ function drawCost() {
     + (good.some(q => q.tol) ? `<li><svg aria-hidden="true">${marker(0, 11, 6, 4, 'fill="var(--card)" stroke="var(--gvi)" stroke-width="1.6"')}</svg>iterated to a tolerance</li>` : '')
     + (good.some(q => q.id === here) ? '<li><svg aria-hidden="true"><circle cx="11" cy="6" r="5" fill="none" stroke="var(--gvi)" stroke-width="2"/></svg>as set now</li>' : '');
   const left = (p.todo ? p.todo.length : 40) + wanted.length, none = [1, 2, 3].filter(m => p.points.some(q => q.method === m && q.status === -6));
-  $('cost-caption').textContent = p.note || `A run to t = ${short(s.span, 3)}${s.time ? ' ' + s.time : ''}. ` + (left ? `Measuring, ${left} runs to go.` : none.length ? `${none.map(m => METHODS[m]).join(', ')} cannot: ${s === mine ? 'L is ' + s.effects[0].what : s.mass && !s.mass.includes('MASS_DIAGONAL') ? 'the mass depends on q' : held() ? 'a constraint acts (degree 1 with Lobatto is RATTLE)' : 'a force reads v'}.` : 'All measured here, now.');
+  $('cost-caption').textContent = p.note || `A run to t = ${short(s.span, 3)}${s.time ? ' ' + s.time : ''}. ` + (left ? `Measuring, ${left} runs to go.` : none.length ? `${none.map(m => METHODS[m]).join(', ')} cannot: ${s === mine ? 'L is ' + s.effects[0].what : s.mass && !s.mass.includes('MASS_DIAGONAL') ? 'the mass depends on q' : held() ? 'a constraint acts (degree 1 with Lobatto is RATTLE)' : 'a force reads v'}.` : 'All measured here, now.') + (s === mine ? ' Of the others an evaluation is an acceleration.' : '');
   svg.dataset.left = left;
   svg.dataset.height = a.H;
   /* the cheapest for the wanted error */
