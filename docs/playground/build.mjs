@@ -16,9 +16,9 @@ const characters = octets => {
     }
   return out;
 };
-/* Without comments of a line and indentation, but for that of programs. */
-const bare = name => read(name).replace(/^ *\/\*.*\*\/\n/gm, '').split(/(return `\/\*[^]*?\n`;|const EXAMPLES[^]*?\n};)/)
-  .map((part, i) => i % 2 ? part : part.replace(/^ +/gm, '')).join('').trim();
+/* Without comments on lines of their own and at the end of one, and without indentation, but for that of programs. */
+const bare = name => read(name).replace(/^ *\/\*[^]*?\*\/\n/gm, '').split(/(return `\/\*[^]*?\n`;|const EXAMPLES[^]*?\n};)/)
+  .map((part, i) => i % 2 ? part : part.replace(/^ +| +\/\/ .*$/gm, '')).join('').trim();
 const [wasm, out] = process.argv.slice(2);
 const packed = gzipSync(readFileSync(wasm), { level: 9 });
 packed[9] = 255;                                         // "operating system": the same on all

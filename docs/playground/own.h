@@ -13,7 +13,8 @@
 /* exp to an ulp: x = n log 2 + r, the series of r.                                        */
 static double own_exp(double x)
 {
-    const double n = __builtin_floor(x*1.4426950408889634074 + 0.5), r = (x - n*0.693147180369123816490) - n*1.90821492927058770002e-10;
+    const double n = __builtin_floor(x*1.4426950408889634074 + 0.5);
+    const double r = (x - n*0.693147180369123816490) - n*1.90821492927058770002e-10;
     union { uint64_t bits; double value; } power;
     double sum = 1;
     if (!(n < 1024)) return x < INFINITY ? INFINITY : x;
@@ -40,8 +41,9 @@ static double own_log(double x)
 static double own_pow(double x, double a)
 {
     const double size = fabs(a), whole = __builtin_floor(size);
-    if (!(size <= 64) || (size > whole && !(size - whole <= 0.5 && size - whole >= 0.5))) return own_exp(a*own_log(x));
-    double y = size > whole ? __builtin_sqrt(x) : 1, square = x;
+    const int half = size - whole <= 0.5 && size - whole >= 0.5;
+    if (!(size <= 64) || (size > whole && !half)) return own_exp(a*own_log(x));
+    double y = half ? __builtin_sqrt(x) : 1, square = x;
     for (int k = (int)whole; k; k /= 2, square *= square)
         if (k & 1) y *= square;
     return a < 0 ? 1/y : y;
@@ -115,7 +117,9 @@ static void own_forward(int count)
             y = a/b, to_a = 1/b, to_b = -y/b;
             turn_a = -db/(b*b), turn_b = -(to_a*da + to_b*db)/b + y*db/(b*b);
             break;
-        case OWN_POWER: y = own_pow(a, c), to_a = c*own_pow(a, c - 1), second = c*(c - 1)*own_pow(a, c - 2); break;
+        case OWN_POWER:
+            y = own_pow(a, c), to_a = c*own_pow(a, c - 1), second = c*(c - 1)*own_pow(a, c - 2);
+            break;
         case OWN_SQRT: y = __builtin_sqrt(a), to_a = 0.5/y, second = -to_a/(2*a); break;
         case OWN_EXP: y = to_a = second = own_exp(a); break;
         case OWN_LOG: y = own_log(a), to_a = 1/a, second = -to_a*to_a; break;
@@ -173,7 +177,8 @@ static void own_add(const lagrangian_wanted *a)
         own_state(x->t[k], q, w);
         const double L = own_sweep();
         for (int i = 0; i < n && a->by_q; ++i) a->by_q[i*R + k] += a->scale*own.adjoint[1 + i];
-        for (int i = a->first; i < a->end && a->by_w; ++i) a->by_w[i*a->apart + k] += a->scale*own.adjoint[1 + n + i];
+        for (int i = a->first; i < a->end && a->by_w; ++i)
+            a->by_w[i*a->apart + k] += a->scale*own.adjoint[1 + n + i];
         if (a->value) a->value[k] += a->scale*L;
     }
 }
@@ -212,7 +217,8 @@ static void own_build(scene_setup *s)
     const double *start = own_typed + 4*OWN_MOST;
     memcpy(s->q, start, sizeof(double)*(size_t)own.n);
     memcpy(s->v, start + own.n, sizeof(double)*(size_t)own.n);
-    scene_add(s, "L", own.n ? lagrangian_text(&own.L) : "", "lagrangian_effect(&L)", 1, lagrangian_effect(&own.L));
+    const char *what = own.n ? lagrangian_text(&own.L) : "";
+    scene_add(s, "L", what, "lagrangian_effect(&L)", 1, lagrangian_effect(&own.L));
     INSTEAD(s, ((gvi_effect){ 0 }));
     s->mass = lagrangian_mass(&own.L);
     s->mass_text = "lagrangian_mass(&L)";
@@ -233,7 +239,8 @@ static void own_place(const double *q, unsigned on, double (*x)[3])
     const double rest[LAGRANGIAN_MOST] = { 0 };
     own_state(own.time, q, rest);
     own_forward(own.whole);
-    for (int i = 0; i < own.points; ++i) scene_point(x[i], own.value[own.at[2*i]], own.value[own.at[2*i+1]], 0);
+    for (int i = 0; i < own.points; ++i)
+        scene_point(x[i], own.value[own.at[2*i]], own.value[own.at[2*i+1]], 0);
     (void)on;
 }
 

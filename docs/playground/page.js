@@ -115,7 +115,7 @@ function put(r) {
 function own(typed) {
   let r;
   try { r = lagrange(typed); } catch (e) { return e.message; }
-  const why = put(r).replace(/differences: .*/, 'differences: L is not smooth near the start');
+  const why = put(r).replace(/ is +by numbers.*/, ' is not what differences show: L is not smooth near the start');
   if (why) { if (good) put(good); return why.replace(/q\[(\d)]/g, (_, i) => r.names[i]).replace(/v\[(\d)]/g, (_, i) => speedOf(r.names[i])) + '.'; }
   good = r;
   for (const [key, p] of problems) if (p.o.scene === mine.i) problems.delete(key);
@@ -158,7 +158,7 @@ const scene = () => scenes[set.scene];
 const slug = s => s.replace(/ /g, '-');
 const defaults = i => Object.assign(set, { scene: i, on: scenes[i].first, p: scenes[i].parameters.map(p => p.value), degree: scenes[i].degree, rule: 'gauss', h: scenes[i].h, tol: 0, dial: 0 });
 const ladder = k => +(scene().h * 2 ** Math.floor(k / 4) * [1, 1.189207115002721, 1.4142135623730951, 1.681792830507429][((k % 4) + 4) % 4]).toPrecision(4);
-const held = () => scene().effects.some((e, k) => e.kind === 4 && set.on >> k & 1);
+const held = () => scene().effects.some((e, k) => e.kind > 3 && set.on >> k & 1);
 const clocked = () => scene().clock >= 0 && !!(set.on >> scene().clock & 1);
 
 function address() {
@@ -583,7 +583,7 @@ function drawStability() {
   if ($('stability-legend').dataset.is !== legend) { $('stability-legend').innerHTML = legend; $('stability-legend').dataset.is = legend; }
   const broken = s.kept.filter(q => acting.some(e => q.unless.includes(e.name)));
   let note = s.timed ? 'L depends on t: the energy is not to stay. ' : forces.length ? `The energy is not to stay while ${forces.map(e => e.name).join(', ')} ${forces.length > 1 ? 'act' : 'acts'}: switch that off to see what the integrator keeps. ` : 'The energy of the exact motion is constant. ';
-  if (held()) note += `The constraint is |g|, the largest over the run${s.length ? `, in ${s.length}²` : ''}: gvi.h satisfies it in each step, Runge-Kutta 4 only its second derivative. `;
+  if (held() && s.kept) note += `The constraint is |g|, the largest over the run${s.length ? `, in ${s.length}²` : ''}: gvi.h satisfies it in each step, Runge-Kutta 4 only its second derivative. `;
   broken.forEach(q => { note += `The ${q.name} is changed by ${acting.filter(e => q.unless.includes(e.name)).map(e => e.name).join(', ')}. `; });
   $('stability-note').textContent = note;
   $('stability-caption').textContent = `${many(x.world_number(0, 1, 0))} steps since the last change${ghost.on ? '; Runge-Kutta 4 gets as many evaluations' : ''}.`;
@@ -803,7 +803,7 @@ function pretty(code) {
 /* Only the definitions that the effects which are on lead to. */
 function needed(code, roots) {
   const parts = pretty(code).split(/\n(?=\S)(?!\})/);
-  const name = p => (/^(?:GVI_POINTS\(|static.*? )(\w+)(?:[[(,;]| =)/.exec(p) || [])[1];
+  const name = p => (/^(?:GVI_\w+\(|static.*? )(\w+)(?:[[(,;]| =)/.exec(p) || [])[1];
   for (;;) {
     const keep = parts.filter(p => /^enum/.test(p) || [roots, ...parts.filter(o => o !== p)].some(o => new RegExp(`\\b${name(p)}\\b`).test(o)));
     if (keep.length === parts.length) return keep.join('\n');
@@ -850,12 +850,8 @@ ${s.make ? `    ${s.make}\n` : ''}${s.mass ? `    desc.mass = ${s.mass.replace(/
 `;
 }
 function kicks8() {
-  const half = [0.13020248308889008087881763, 0.56116298177510838456196441, -0.38947496264484728640807860, 0.15884190655515560089621075, -0.39590389413323757733623154, 0.18453964097831570709183254, 0.25837438768632204729397911, 0.29501172360931029887096624];
-  const g = [...half, 1 - 2 * half.reduce((a, b) => a + b), ...[...half].reverse()], nodes = [0], weights = [];
-  g.forEach((v, i) => nodes.push(i < 16 ? nodes[i] + v : 1));
-  nodes.forEach((_, i) => weights.push(((g[i - 1] || 0) + (g[i] || 0)) / 2));
-  const rows = a => a.join(', ').replace(/((?:[^,]+, ){3}[^,]+), /g, '$1,\n        ');
-  return `    static const double nodes[] = {\n        ${rows(nodes)} };\n    static const double weights[] = {\n        ${rows(weights)} };\n`;
+  const rows = at => [...numbers.subarray(at, at + 18)].join(', ').replace(/((?:[^,]+, ){3}[^,]+), /g, '$1,\n        ');
+  return `    static const double nodes[] = {\n        ${rows(x.kicks() / 8)} };\n    static const double weights[] = {\n        ${rows(x.kicks() / 8 + 18)} };\n`;
 }
 
 /* ---- what a person does ---- */

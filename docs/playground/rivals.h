@@ -64,7 +64,7 @@ static void rival_bend(const rival *r, int n, const double *q, const double *v, 
     for (int a = 0; a < r->rows; ++a) bend[a] = 0;
     for (double to = e; to > -2*e; to -= 2*e) {
         for (int i = 0; i < n; ++i) moved[i] = q[i] + to*v[i];
-        scene_hold(r->setup, r->on, n, 0, moved, g, G, rate);
+        scene_hold(r->setup, r->on, n, 0, moved, v, g, G, rate);
         for (int a = 0; a < r->rows; ++a)
             for (int i = 0; i < n; ++i) bend[a] += G[a*n+i]*v[i]/(2*to);
     }
@@ -76,7 +76,7 @@ static void rival_hold(const rival *r, int n, const double *y, double *f)
 {
     static double g[SCENE_ROWS], x[SCENE_ROWS], whole[SCENE_ROWS];
     static double G[SCENE_ROWS*SCENE_MOST], A[SCENE_ROWS][SCENE_ROWS];
-    const int m = scene_hold(r->setup, r->on, n, 0, y, g, G, x);
+    const int m = scene_hold(r->setup, r->on, n, 0, y, y + n, g, G, x);
     rival_bend(r, n, y, y + n, 1, x);
     for (int a = 0; a < m; ++a) {
         for (int i = 0; i < n; ++i) x[a] += G[a*n+i]*f[i];
@@ -240,7 +240,7 @@ static double rival_energy(rival *r)
 static int rival_holds(rival *r, int n, double t, const double *q)
 {
     static double g[SCENE_ROWS], rate[SCENE_ROWS], G[SCENE_ROWS*SCENE_MOST], bend[2][SCENE_ROWS], v[SCENE_MOST];
-    r->rows = scene_hold(r->setup, r->on, n, t, q, g, G, rate);
+    r->rows = scene_hold(r->setup, r->on, n, t, q, NULL, g, G, rate);
     if (r->rows <= 0) return r->rows == 0;
     for (int i = 0; i < n; ++i) v[i] = i + 1;
     rival_bend(r, n, q, v, 1, bend[0]);
@@ -279,7 +279,7 @@ static int rival_begin(rival *r, int method, int n, const scene_setup *s, unsign
         r->y[i] = q[i];
         r->y[n+i] = r->mass.kind == GVI_MASS_POSITION ? p[i] : v[i];
     }
-    if (!rival_holds(r, n, t, q)) return -1;
+    if (!rival_holds(r, n, t, q) || (r->mass.kind == GVI_MASS_POSITION && !r->mass.velocity)) return -1;
     return method == RIVAL_VERLET && (r->reads_velocity || r->rows || s->mass.kind == GVI_MASS_POSITION) ? -1 : 0;
 }
 

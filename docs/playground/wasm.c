@@ -70,7 +70,7 @@ typedef struct world {
 static world worlds[WORLDS];
 static double out[3*SCENE_BODIES + 2*SCENE_MOST];
 static double values[SCENE_PARAMETERS + 1];          /* the last one: the dial, 0 for none */
-static double own_nodes[18], own_weights[18];
+static double kick_table[36];                        /* 18 nodes, 18 weights               */
 
 enum { SCENES = sizeof scenes/sizeof *scenes };
 
@@ -172,10 +172,16 @@ static void kicks_of_order_8(void)
     for (int i = 0; i < 8; ++i) gamma[i] = gamma[16-i] = kahan_li8[i], middle -= 2*kahan_li8[i];
     gamma[8] = middle;
     for (int i = 0; i < 18; ++i) {
-        own_nodes[i] = i < 17 ? at : 1;
-        own_weights[i] = ((i > 0 ? gamma[i-1] : 0) + (i < 17 ? gamma[i] : 0))/2;
+        kick_table[i] = i < 17 ? at : 1;
+        kick_table[18+i] = ((i > 0 ? gamma[i-1] : 0) + (i < 17 ? gamma[i] : 0))/2;
         at += i < 17 ? gamma[i] : 0;
     }
+}
+
+double *EXPORT(kicks)(void)
+{
+    kicks_of_order_8();
+    return kick_table;
 }
 
 static void world_rule(gvi_desc *desc, int degree, int rule)
@@ -187,7 +193,7 @@ static void world_rule(gvi_desc *desc, int degree, int rule)
     if (rule == RULE_VERLET) desc->rule = (gvi_rule){ GVI_KICKS, 2, verlet_nodes, verlet_weights };
     if (rule == RULE_KICKS8) {
         kicks_of_order_8();
-        desc->rule = (gvi_rule){ GVI_KICKS, 18, own_nodes, own_weights };
+        desc->rule = (gvi_rule){ GVI_KICKS, 18, kick_table, kick_table + 18 };
     }
     if (desc->rule.kind == GVI_KICKS) desc->degree = 1;
 }
@@ -205,7 +211,7 @@ static int world_switch(world *w, unsigned changed)
 {
     unsigned listed = 0;
     for (int e = 0; e < w->desc.effect_count; ++e)
-        if (w->effects[e].kind == GVI_CONSTRAINT) listed |= 1u << w->listed[e];
+        if (w->effects[e].kind >= GVI_CONSTRAINT) listed |= 1u << w->listed[e];
     if (!changed || changed & ~listed) return 1;
     for (int e = 0; e < w->desc.effect_count; ++e) {
         const unsigned bit = 1u << w->listed[e];
@@ -322,11 +328,11 @@ int EXPORT(world_advance)(int which, double h, int count)
     return GVI_OK;
 }
 
-/* The largest |g| of the constraints that act.                                            */
-static double world_gap(const world *w, double t, const double *q)
+/* The largest |g| or slip of the constraints that act.                                    */
+static double world_gap(const world *w, double t, const double *q, const double *v)
 {
     static double g[SCENE_ROWS], rate[SCENE_ROWS], G[SCENE_ROWS*SCENE_MOST];
-    const int m = scene_hold(&w->setup, w->on, w->scene->n, t, q, g, G, rate);
+    const int m = scene_hold(&w->setup, w->on, w->scene->n, t, q, v, g, G, rate);
     double most = m < 0 ? NAN : 0;
     for (int a = 0; a < m; ++a) most = fabs(g[a]) > most || g[a] != g[a] ? fabs(g[a]) : most;
     return most;
@@ -357,7 +363,10 @@ double EXPORT(world_number)(int which, int field, int i)
         world_remember(w);
         w->scene->quantities(w->q, w->v, w->p, kept);
         return kept[i];
-    case 22: return w->open ? world_gap(w, w->st.t, w->st.q) : NAN;
+    case 22:
+        if (!w->open) return NAN;
+        world_remember(w);
+        return world_gap(w, w->t, w->q, w->v);
     case 30: return w->open ? w->st.q[i] : w->q[i];
     case 31: return w->open ? w->st.p[i] : w->p[i];
     case 32: return w->setup.q[i];
@@ -366,7 +375,7 @@ double EXPORT(world_number)(int which, int field, int i)
     case 41: return w->rival.evaluations;
     case 42: return rival_energy(&w->rival);
     case 43: return w->rival.y[i];
-    case 44: return world_gap(w, w->rival.t, w->rival.y);
+    case 44: return world_gap(w, w->rival.t, w->rival.y, w->rival.y + w->rival.n);
     default: return 0;
     }
 }
@@ -400,6 +409,8 @@ double *EXPORT(world_place)(int which, double t)
                    && w->setup.row[w->setup.rows - 1].effect.kind == GVI_CLOCK
                    && (w->on >> (w->setup.rows - 1) & 1);
     memcpy(q, w->open ? w->st.q : w->q, sizeof(double)*(size_t)w->scene->n);
+    scene_push[0] = scene_push[1] = 0;
+    if (w->scene->place == coin_place && w->open && w->on & 2 && w->steps > 0) gvi_multipliers(&w->st, scene_push);
     if ((left > 0 || left < 0) && (h > 0 || h < 0)) {
         double tau = 1 + left/h;
         tau = tau < 0 ? 0 : tau > 1 ? 1 : tau;

@@ -44,7 +44,7 @@ static void broken(int scene, unsigned on, int degree, int rule, double h)
 {
     unsigned rod = 0;
     for (int e = 0; e < 32; ++e)
-        if (on >> e & 1 && scene_number(scene, 22, e) == GVI_CONSTRAINT) rod = 1u << e;
+        if (on >> e & 1 && scene_number(scene, 22, e) >= GVI_CONSTRAINT) rod = 1u << e;
     for (int i = 0; i < SCENE_PARAMETERS; ++i) parameters()[i] = scene_number(scene, 33, i);
     printf("%d %u %d %d 0 -1 %.17g:", scene, on, degree, rule, h);
     for (int k = 0; k < 3; ++k) {
@@ -106,7 +106,7 @@ int main(int argc, char **argv)
     }
     for (int s = 0; s < SCENES; ++s)
         for (int e = 0; e < (int)scene_number(s, 20, 0); ++e)
-            if (scene_number(s, 22, e) == GVI_CONSTRAINT) {
+            if (scene_number(s, 22, e) >= GVI_CONSTRAINT) {
                 broken(s, (2u << e) - 1, 8, RULE_GAUSS, scene_number(s, 2, 0));
                 /* where M depends on q, a rule needs as many points as degrees */
                 broken(s, (2u << e) - 1, 3, *scene_text(s, 7, 0) ? RULE_GAUSS : RULE_LOBATTO, scene_number(s, 2, 0)/8);
