@@ -80,6 +80,19 @@ function test(wasm, build) {
     try { lagrange(typed); } catch (e) { said = e.message; }
     check(`${JSON.stringify(typed)} is refused`, said.startsWith(`Line ${line}, column ${column ?? ''}`) && why.test(said), said);
   }
+  /* whatever is typed: a sentence with its place, or operations whose operands come before them */
+  const WORDS = ['L', '=', 'x', 'vx', 'y', 'vy', '(', ')', '(0)', '=', '1', '2.5', '+', '-', '*', '/', '^', ',', '\n', 'sin', 'pow', 't', 'pi', 'end', 'draw', 'a', '#', '$', 'L = vx^2', 'x(0) = 1', 'q', 'v', 'q(0)=', '\'', '.', 'e5'];
+  let seed = 1, whole = 0, wrong = '';
+  for (let k = 0; k < 100000; k++) {
+    let typed = k % 2 ? 'x(0) = 1 L = vx^2/2 + ' : '';
+    for (let j = 0; j < k % 13; j++) seed = (seed*16807)%2147483647, typed += WORDS[seed%WORDS.length] + (seed & 1024 ? ' ' : '');
+    try {
+      const r = lagrange(typed), inputs = 1 + 2*r.n;
+      whole++;
+      if (!r.steps.every(([op, a, b], i) => op <= 11 && a < inputs + i && b < inputs + i) || !r.draw.every(p => p < inputs + r.steps.length) || !r.length) wrong = typed;
+    } catch (e) { if (!/^Line \d+, column \d+: .{10,200}\.$/s.test(e.message)) wrong = `${typed}: ${e.message}`; }
+  }
+  check('whatever is typed', !wrong && whole > 1000, JSON.stringify(wrong), whole);
   for (const [typed, why] of [['L = vx^2/2 - y^2\nx(0) = 1, y(0) = 1', /L has no kinetic energy in q\[1\]/], ['L = log(x)*vx^2/2\nx(0) = -1', /L is not finite at the start/],
     ['L = x*vy - y*vx\nx(0) = 1, y(0) = 1', /linear in v/], ['L = x\nx(0) = 1', /linear in v/], ['L = (vx + vy)^2\nx(0) = 1, y(0) = 1', /some direction/], ['L = vx^2/2 - sqrt(x^2)\nx(0) = 0', /not finite/]])
     check(`${JSON.stringify(typed)} is refused by lagrangian.h`, why.test(take(typed).why), take(typed).why);
@@ -109,6 +122,13 @@ function test(wasm, build) {
   for (const method of [0, 3]) {
     const driven = end(OWN, 1, method ? 1e-13 : 0.05, 3, method);
     check('an oscillator driven: its closed form', far(driven, [(Math.sin(6) - 2*Math.sin(3))/-3]) < 1e-12, driven);
+  }
+
+  /* second derivatives of everything: where v is within f, DOP853 needs them and Galerkin steps do not */
+  for (const f of ['sqrt(u)', 'exp(u)', 'log(u)', 'sin(u)', 'cos(u)', 'tan(u)', 'u^3', 'u^-1.5', 'u^0.3', '2^u', 'u^u', '1/u', 'u*u/(1 + u)', 'u*t - u']) {
+    take(`u = 0.7 + x/8 + vx/9 + y*vy/7\nL = 3*vx^2 + 2*vy^2 - x^2 + x*y + ${f}\nx(0) = 0.3, y(0) = 0.2, vx(0) = 0.1 vy(0) = -0.2`);
+    const [ours, theirs] = [end(OWN, 1, 0.05, 1), end(OWN, 1, 1e-13, 1, 3)], apart = far(ours, theirs);
+    check(`${f}: its second derivatives`, apart < 1e-11, apart);
   }
 
   /* the body of the C: compiled as it is, its end by derivatives from complex steps */
