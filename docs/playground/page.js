@@ -8,8 +8,13 @@ if (!window.WebAssembly || !window.DecompressionStream) {
   $('about').textContent = 'This page needs a browser with WebAssembly and DecompressionStream (2023 or later).';
   return;
 }
-const packed = Uint8Array.from(atob(WASM), c => c.charCodeAt(0));
-const plain = await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
+const packed = new Uint8Array(WASM.length / 5 * 4);
+for (let k = 0, v = 0; k < WASM.length; k++) {           // as build.mjs wrote it
+  const c = WASM.charCodeAt(k);
+  v = v * 85 + c - 40 - (c > 60) - (c > 92);
+  if (k % 5 === 4) new DataView(packed.buffer).setUint32((k - 4) / 5 * 4, v), v = 0;
+}
+const plain = await new Response(new Blob([packed.subarray(packed.indexOf(31))]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
 const { exports: x } = await WebAssembly.instantiate(await WebAssembly.compile(plain), {});
 x._initialize?.();
 const numbers = new Float64Array(x.memory.buffer), octets = new Uint8Array(x.memory.buffer);
@@ -40,6 +45,7 @@ for (let i = 0; i < x.scene_count(); i++) {
   s.clock = s.effects.findIndex(e => e.kind === 3);
   scenes.push(s);
 }
+const mine = scenes[scenes.length - 1];                  // the visitor's own, from own.h
 
 /* ---- words for numbers ---- */
 const sup = n => String(n).replace('-', '⁻').replace(/\d/g, d => '⁰¹²³⁴⁵⁶⁷⁸⁹'[d]);
@@ -48,24 +54,128 @@ const many = v => v >= 1e6 ? (v / 1e6).toPrecision(3) + ' M' : Math.round(v).toL
 const duration = ms => ms >= 1000 ? (ms / 1000).toPrecision(3) + ' s' : ms >= 1 ? ms.toPrecision(3) + ' ms' : (ms * 1000).toPrecision(3) + ' µs';
 const html = s => String(s).replace(/[&<>"]/g, c => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' }[c]));
 
+/* ---- the visitor's own scene ---- */
+const EXAMPLES = {
+  'a double pendulum': `g = 9.81                 # rods of 1, masses of 1
+L = va^2 + vb^2/2 + va*vb*cos(a - b)
+  + g*(2*cos(a) + cos(b))
+
+a(0) = pi/2
+b(0) = 2*pi/3
+end = 10
+draw = (0, 0) (sin(a), -cos(a))
+       (sin(a) + sin(b), -cos(a) - cos(b))`,
+  'a pendulum on a cart': `M = 2, m = 1, l = 1, g = 9.81
+L = (M + m)*vx^2/2 + m*l*vx*va*cos(a)
+  + m*l^2*va^2/2 + m*g*l*cos(a)
+
+x(0) = 0
+a(0) = 2.5
+end = 10
+draw = (x - 0.3, 0) (x + 0.3, 0),
+       (x, 0) (x + l*sin(a), -l*cos(a))`,
+  'a pendulum on a spring': `k = 40, m = 1, g = 9.81
+r = sqrt(x^2 + y^2)
+L = m*(vx^2 + vy^2)/2 - k*(r - 1)^2/2 - m*g*y
+
+x(0) = 1.2*sin(pi/3)
+y(0) = -1.2*cos(pi/3)
+end = 20
+draw = (0, 0) (x, y)`,
+  'a planet': `L = (vx^2 + vy^2)/2 + 1/sqrt(x^2 + y^2)
+
+x(0) = 1, y(0) = 0
+vx(0) = 0, vy(0) = 0.8
+end = 20
+draw = (0, 0), (x, y)`,
+  'a relativistic particle': `c = 1                    # L is not quadratic in v
+L = -c^2*sqrt(1 - (vx^2 + vy^2)/c^2) + 0.2/sqrt(x^2 + y^2)
+
+x(0) = 1, y(0) = 0
+vy(0) = 0.4
+end = 40
+draw = (0, 0), (x, y)`,
+  'a pendulum whose pivot shakes': `A = 0.1, w = 60, g = 9.81    # Kapitza: it stays upright
+y = A*cos(w*t)
+L = va^2/2 - A*w*sin(w*t)*va*sin(a) + g*cos(a)
+
+a(0) = 3
+end = 5
+draw = (0, y) (sin(a), y - cos(a))`,
+};
+let good = null;
+function put(r) {
+  const room = x.own_room() / 8;
+  r.steps.forEach((s, k) => numbers.set(s, room + 4 * k));
+  numbers.set([...r.q, ...r.v], room + 2400);
+  numbers.set(r.draw, room + 2416);
+  return text(x.own_take(r.n, r.length, r.steps.length, r.draw.length / 2, r.end));
+}
+/* Takes what is typed: the sentence that says what is wrong, or ''. What ran before goes on then. */
+function own(typed) {
+  let r;
+  try { r = lagrange(typed); } catch (e) { return e.message; }
+  const why = put(r).replace(/ is +by numbers.*/, ' is not what differences show: L is not smooth near the start');
+  if (why) { if (good) put(good); return why.replace(/q\[(\d)]/g, (_, i) => r.names[i]).replace(/v\[(\d)]/g, (_, i) => speedOf(r.names[i])) + '.'; }
+  good = r;
+  for (const [key, p] of problems) if (p.o.scene === mine.i) problems.delete(key);
+  const still = i => [0, 1].every(k => { const s = r.steps[r.draw[2 * i + k] - 2 * r.n - 1]; return s && !s[0]; });
+  const rods = r.rods.filter(a => a[2] > 1), ends = r.rods.map(a => a[0] + a[2] - 1), points = [...Array(r.draw.length / 2).keys()];
+  const bits = list => list.reduce((sum, i) => sum | 1 << i, 0);
+  Object.assign(mine, { n: r.n, span: r.end, speed: r.end / 10, bodies: points.length, rods, timed: r.timed, text: r.c, radius: points.map(i => still(i) ? rods.length ? 4 : 10 : 7),
+    fixed: bits(points.filter(still)), trails: bits(ends.filter(i => !still(i))), mark: Math.random() });
+  mine.effects[0].what = text(x.scene_text(mine.i, 11, 0));
+  return tryOut(), '';
+}
+/* A run by the dial: its steps tell one that suits, and where it goes is what is seen. */
+function tryOut() {
+  const stop = now() + 150, low = [Infinity, Infinity], high = [-Infinity, -Infinity];
+  let t = 0, steps = 0, status = open(2, { scene: mine.i, on: 1, p: [], degree: 8, rule: 'gauss', tol: 0, dial: 1e-12 });
+  const look = p => { for (let i = 0; i < 2 * mine.bodies; i++) { const v = numbers[p / 8 + 3 * (i >> 1) + i % 2]; if (isFinite(v)) low[i % 2] = Math.min(low[i % 2], v), high[i % 2] = Math.max(high[i % 2], v); } };
+  look(x.world_place(2, 0));
+  while (!status && t < mine.span && now() < stop) {
+    status = x.world_advance(2, 1, 1);
+    if (status) break;
+    t = x.world_number(2, 0, 0); steps++;
+    for (let k = 1; k < 5; k++) look(x.world_curve(2, k / 4));
+  }
+  mine.h = +(0.7 * t / steps || mine.span / 200).toPrecision(2);
+  mine.centre = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, 0];
+  mine.view = 0.6 * Math.max(high[0] - low[0], high[1] - low[1]) || 1;
+}
+function takeTyped(typed) {
+  const wrong = own(typed);
+  $('wrong').textContent = wrong || `L is ${mine.effects[0].what}.`;
+  $('wrong').classList.toggle('bad', !!wrong);
+  if (!wrong) set.L = typed;
+  return wrong;
+}
+const problems = new Map();
+
 /* ---- the state that the address holds ---- */
 const set = { scene: 0, on: 0, p: [], degree: 8, rule: 'gauss', h: 0.1, tol: 0, dial: 0, want: -8, by: 'evaluations' };
 const scene = () => scenes[set.scene];
 const slug = s => s.replace(/ /g, '-');
 const defaults = i => Object.assign(set, { scene: i, on: scenes[i].first, p: scenes[i].parameters.map(p => p.value), degree: scenes[i].degree, rule: 'gauss', h: scenes[i].h, tol: 0, dial: 0 });
 const ladder = k => +(scene().h * 2 ** Math.floor(k / 4) * [1, 1.189207115002721, 1.4142135623730951, 1.681792830507429][((k % 4) + 4) % 4]).toPrecision(4);
-const held = () => scene().effects.some((e, k) => e.kind === 4 && set.on >> k & 1);
+const held = () => scene().effects.some((e, k) => e.kind > 3 && set.on >> k & 1);
 const clocked = () => scene().clock >= 0 && !!(set.on >> scene().clock & 1);
 
 function address() {
   const s = scene();
-  const a = { scene: s.name, on: s.effects.filter((e, k) => set.on >> k & 1).map(e => slug(e.name)).join(','), p: set.p.join(','), degree: set.degree, rule: set.rule, h: set.h, tol: set.tol, dial: set.dial || '', want: set.want };
+  const a = { scene: s.name, L: s === mine ? set.L : '', on: s.effects.filter((e, k) => set.on >> k & 1).map(e => slug(e.name)).join(','), p: set.p.join(','), degree: set.degree, rule: set.rule, h: set.h, tol: set.tol, dial: set.dial || '', want: set.want };
   return '#' + Object.entries(a).filter(([k, v]) => v !== '' || k === 'on').map(([k, v]) => k + '=' + encodeURIComponent(v).replace(/%2C/g, ',')).join('&');
 }
 let written = '';
 function remember() {
   written = address();
   try { history.replaceState(null, '', written); } catch { location.hash = written; }
+}
+/* The own scene as it was, as the address says, or as an example. */
+function start(typed = set.L || EXAMPLES['a double pendulum']) {
+  if (good && typed === set.L) return '';
+  $('typed').value = typed;
+  return takeTyped(typed);
 }
 /* What the address says is handed to the library as it is: the library judges. */
 function recall() {
@@ -76,7 +186,9 @@ function recall() {
     try { a[k] = decodeURIComponent(v || ''); } catch { a[k] = v; }
   }
   const i = a.scene === undefined ? 0 : scenes.findIndex(s => s.name === a.scene);
-  defaults(Math.max(i, 0));
+  const wrong = i === mine.i && start(a.L);
+  defaults(wrong ? 0 : Math.max(i, 0));
+  if (wrong) return { call: 'L', status: -1, why: wrong.replace(/\.$/, '') };
   if (i < 0) return { call: `scene "${a.scene}"`, status: -1, why: 'it is not one of the scenes' };
   if (a.on !== undefined) set.on = scene().effects.reduce((m, e, k) => m | a.on.split(',').includes(slug(e.name)) << k, 0);
   if (a.p !== undefined) a.p.split(',').slice(0, set.p.length).forEach((v, k) => { set.p[k] = Number(v); });
@@ -373,7 +485,7 @@ function showNumbers() {
   $('stepped').textContent = many(Math.abs(live.k));
   const e = curves.gvi.length ? Math.abs(x.world_number(0, 20, 0) - E0) / Escale : 0;
   $('energy').textContent = live.ok ? short(e) : '–';
-  $('energy-word').textContent = s.effects.some((a, k) => a.kind === 1 && set.on >> k & 1) ? 'energy changed by' : 'energy off by';
+  $('energy-word').textContent = s.timed || s.effects.some((a, k) => a.kind === 1 && set.on >> k & 1) ? 'energy changed by' : 'energy off by';
   const total = s.effects.map((_, k) => (live.base[k] || 0) + x.world_number(0, 3, k)), seconds = (time - lastCounts.at) / 1000;
   s.effects.forEach((_, k) => {
     const row = $('rows').children[k];
@@ -411,11 +523,15 @@ function showControls() {
   put('rule', RULES.includes(set.rule) ? set.rule : ''); put('tolerance', set.tol);
   $('h').setAttribute('aria-valuetext', `${set.h} ${clocked() ? 'of the clock' : s.time}`);
   document.querySelector('label[for=h]').innerHTML = clocked() ? 'step <i>h</i> in <i>τ</i>' : `step <i>h</i>${s.time ? ', ' + s.time : ''}`;
+  $('own').hidden = s !== mine;
+  document.querySelector('main').classList.toggle('typing', s === mine);
   [...$('scenes').children].forEach((b, i) => { b.setAttribute('aria-checked', i === set.scene); b.tabIndex = i === set.scene ? 0 : -1; });
-  if ($('rows').dataset.scene !== s.name) {
-    $('rows').dataset.scene = s.name;
-    $('rows').innerHTML = s.effects.map((e, k) => `<tr data-effect="${slug(e.name)}"><td><label class="switch"><input type="checkbox" role="switch" data-k="${k}"><span>${html(e.name)}<small>${html(e.what)}</small></span></label></td><td>0</td><td>0</td></tr>`).join('');
-    $('parameters').innerHTML = s.parameters.map((p, k) => `<label for="p${k}">${html(p.name)}</label><input type="range" id="p${k}" data-k="${k}" min="${p.low}" max="${p.high}" step="${p.step}"><output class="number" for="p${k}" id="p${k}-out"></output>`).join('') || '<span class="note wide">fixed in this scene</span>';
+  if ($('rows').dataset.scene !== s.name + s.mark) {
+    $('rows').dataset.scene = s.name + s.mark;
+    if (s === mine) $('own').append($('code-box')), $('code-box').open = true;
+    else $('points').closest('details').before($('code-box'));
+    $('rows').innerHTML = s.effects.map((e, k) => `<tr data-effect="${slug(e.name)}"><td><label class="switch"><input type="checkbox" role="switch" data-k="${k}"${s === mine ? ' disabled' : ''}><span>${html(e.name)}<small>${html(e.what)}</small></span></label></td><td>0</td><td>0</td></tr>`).join('');
+    $('parameters').innerHTML = s.parameters.map((p, k) => `<label for="p${k}">${html(p.name)}</label><input type="range" id="p${k}" data-k="${k}" min="${p.low}" max="${p.high}" step="${p.step}"><output class="number" for="p${k}" id="p${k}-out"></output>`).join('') || `<span class="note wide">${s === mine ? 'in the text' : 'fixed in this scene'}</span>`;
     canvas.classList.toggle('space', !!s.space);
     canvas.setAttribute('aria-label', `${s.title}. ${s.about}${s.space ? ' Arrow keys turn it.' : ''}`);
     lastCounts.total = [];
@@ -466,15 +582,14 @@ function drawStability() {
     + s.kept.map((q, k) => stays[k] ? `<li>${swatch(k ? 'verlet' : 'dop', 1.2)}${html(q.name)}, gvi.h</li>` : '').join('') + (held() ? `<li>${swatch('ink', 1.4, '2 3')}constraint, |g|, gvi.h</li>` + (ghost.ok ? `<li>${swatch('rk4', 1.4, '2 3')}constraint, |g|, Runge-Kutta 4</li>` : '') : '') + `<li>${swatch('muted', 1.2, '4 3')}Brouwer: ε √steps</li>`;
   if ($('stability-legend').dataset.is !== legend) { $('stability-legend').innerHTML = legend; $('stability-legend').dataset.is = legend; }
   const broken = s.kept.filter(q => acting.some(e => q.unless.includes(e.name)));
-  let note = forces.length ? `The energy is not to stay while ${forces.map(e => e.name).join(', ')} ${forces.length > 1 ? 'act' : 'acts'}: switch that off to see what the integrator keeps. ` : 'The energy of the exact motion is constant. ';
-  if (held()) note += `The constraint is |g|, the largest over the run${s.length ? `, in ${s.length}²` : ''}: gvi.h satisfies it in each step, Runge-Kutta 4 only its second derivative. `;
+  let note = s.timed ? 'L depends on t: the energy is not to stay. ' : forces.length ? `The energy is not to stay while ${forces.map(e => e.name).join(', ')} ${forces.length > 1 ? 'act' : 'acts'}: switch that off to see what the integrator keeps. ` : 'The energy of the exact motion is constant. ';
+  if (held() && s.kept) note += `The constraint is |g|, the largest over the run${s.length ? `, in ${s.length}²` : ''}: gvi.h satisfies it in each step, Runge-Kutta 4 only its second derivative. `;
   broken.forEach(q => { note += `The ${q.name} is changed by ${acting.filter(e => q.unless.includes(e.name)).map(e => e.name).join(', ')}. `; });
   $('stability-note').textContent = note;
   $('stability-caption').textContent = `${many(x.world_number(0, 1, 0))} steps since the last change${ghost.on ? '; Runge-Kutta 4 gets as many evaluations' : ''}.`;
 }
 
 /* ---- races: a queue that runs in slices between frames ---- */
-const problems = new Map();
 let race = null, problemNow = null, costDirty = true;
 const wanted = [];
 
@@ -642,7 +757,7 @@ function drawCost() {
     + (good.some(q => q.tol) ? `<li><svg aria-hidden="true">${marker(0, 11, 6, 4, 'fill="var(--card)" stroke="var(--gvi)" stroke-width="1.6"')}</svg>iterated to a tolerance</li>` : '')
     + (good.some(q => q.id === here) ? '<li><svg aria-hidden="true"><circle cx="11" cy="6" r="5" fill="none" stroke="var(--gvi)" stroke-width="2"/></svg>as set now</li>' : '');
   const left = (p.todo ? p.todo.length : 40) + wanted.length, none = [1, 2, 3].filter(m => p.points.some(q => q.method === m && q.status === -6));
-  $('cost-caption').textContent = p.note || `A run to t = ${short(s.span, 3)}${s.time ? ' ' + s.time : ''}. ` + (left ? `Measuring, ${left} runs to go.` : none.length ? `${none.map(m => METHODS[m]).join(', ')} cannot: ${s.mass && !s.mass.includes('MASS_DIAGONAL') ? 'the mass depends on q' : held() ? 'a constraint acts (degree 1 with Lobatto is RATTLE)' : 'a force reads v'}.` : 'All measured here, now.');
+  $('cost-caption').textContent = p.note || `A run to t = ${short(s.span, 3)}${s.time ? ' ' + s.time : ''}. ` + (left ? `Measuring, ${left} runs to go.` : none.length ? `${none.map(m => METHODS[m]).join(', ')} cannot: ${s === mine ? 'L is ' + s.effects[0].what : s.mass && !s.mass.includes('MASS_DIAGONAL') ? 'the mass depends on q' : held() ? 'a constraint acts (degree 1 with Lobatto is RATTLE)' : 'a force reads v'}.` : 'All measured here, now.') + (s === mine ? ' Of the others an evaluation is an acceleration.' : '');
   svg.dataset.left = left;
   svg.dataset.height = a.H;
   /* the cheapest for the wanted error */
@@ -688,7 +803,7 @@ function pretty(code) {
 /* Only the definitions that the effects which are on lead to. */
 function needed(code, roots) {
   const parts = pretty(code).split(/\n(?=\S)(?!\})/);
-  const name = p => (/^(?:GVI_POINTS\(|static.*? )(\w+)(?:[[(,;]| =)/.exec(p) || [])[1];
+  const name = p => (/^(?:GVI_\w+\(|static.*? )(\w+)(?:[[(,;]| =)/.exec(p) || [])[1];
   for (;;) {
     const keep = parts.filter(p => /^enum/.test(p) || [roots, ...parts.filter(o => o !== p)].some(o => new RegExp(`\\b${name(p)}\\b`).test(o)));
     if (keep.length === parts.length) return keep.join('\n');
@@ -698,14 +813,14 @@ function needed(code, roots) {
 function program(j) {
   const s = scene(), on = s.effects.filter((e, k) => set.on >> k & 1), tau = clocked();
   const steps = Math.ceil(s.span / j.h - 1e-9), C = v => Number.isInteger(v) ? v + '.0' : String(v);
-  const code = needed(s.text, [...on.map(e => e.code), s.make, s.mass].join(' '));
+  const typed = s === mine, code = typed ? s.text : needed(s.text, [...on.map(e => e.code), s.make, s.mass].join(' '));
   const state = f => [...Array(s.n)].map((_, i) => x.world_number(0, f, i)).join(', ').replace(/(.{60,90}?), /g, '$1,\n                        ');
   const rule = { gauss: '', 'gauss+2': ` .rule = { .points = ${j.degree + 2} },`, lobatto: ' .rule = { .kind = GVI_LOBATTO },' }[j.rule];
   const kicks = rule === undefined;
   return `/* ${s.title}: ${describe(j)}. Written by the playground of gvi.h.
    cc -I. -Iexamples -Idocs/playground this.c -lm      in the top folder of gvi.h  */
 #define GVI_IMPLEMENTATION
-#include "${/_clock /.test(code) ? 'clocks.h' : 'tools/effects.h'}"${/ bodies /.test(code) ? '\n#include "tools/body.h"' : ''}
+#include "${typed ? 'tools/lagrangian.h' : /_clock /.test(code) ? 'clocks.h' : 'tools/effects.h'}"${/ bodies /.test(code) ? '\n#include "tools/body.h"' : ''}
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -715,7 +830,10 @@ int main(void)
 {
     const double q[] = { ${state(32)} };
     const double v[] = { ${state(33)} };
-${on.length ? `    const gvi_effect effects[] = {
+${typed ? `    static lagrangian L;
+    const char *wrong = lagrangian_init(&L, own, NULL, 0, q, v);
+    if (wrong) return puts(wrong), 1;
+` : ''}${on.length ? `    const gvi_effect effects[] = {
 ${on.map(e => `        ${e.code},`).join('\n')}
     };
 ` : ''}${kicks && j.rule === 'verlet' ? '    const double nodes[] = { 0, 1 }, weights[] = { 0.5, 0.5 };\n' : kicks ? kicks8() : ''}    gvi_desc desc = { .n = ${s.n}, .degree = ${j.degree},${kicks ? ` .rule = { GVI_KICKS, ${j.rule === 'verlet' ? 2 : 18}, nodes, weights },` : rule}${j.tol ? ` .tolerance = ${j.tol.toExponential(0)},` : ''}${j.dial ? ` .resolution = ${j.dial.toExponential(0)},` : ''}${on.length ? `
@@ -732,22 +850,22 @@ ${s.make ? `    ${s.make}\n` : ''}${s.mass ? `    desc.mass = ${s.mass.replace(/
 `;
 }
 function kicks8() {
-  const half = [0.13020248308889008087881763, 0.56116298177510838456196441, -0.38947496264484728640807860, 0.15884190655515560089621075, -0.39590389413323757733623154, 0.18453964097831570709183254, 0.25837438768632204729397911, 0.29501172360931029887096624];
-  const g = [...half, 1 - 2 * half.reduce((a, b) => a + b), ...[...half].reverse()], nodes = [0], weights = [];
-  g.forEach((v, i) => nodes.push(i < 16 ? nodes[i] + v : 1));
-  nodes.forEach((_, i) => weights.push(((g[i - 1] || 0) + (g[i] || 0)) / 2));
-  const rows = a => a.join(', ').replace(/((?:[^,]+, ){3}[^,]+), /g, '$1,\n        ');
-  return `    static const double nodes[] = {\n        ${rows(nodes)} };\n    static const double weights[] = {\n        ${rows(weights)} };\n`;
+  const rows = at => [...numbers.subarray(at, at + 18)].join(', ').replace(/((?:[^,]+, ){3}[^,]+), /g, '$1,\n        ');
+  return `    static const double nodes[] = {\n        ${rows(x.kicks() / 8)} };\n    static const double weights[] = {\n        ${rows(x.kicks() / 8 + 18)} };\n`;
 }
 
 /* ---- what a person does ---- */
 function change(o, keep = true) { Object.assign(set, o); pointed = false; apply(keep && live.t !== undefined); }
+$('examples').innerHTML = Object.keys(EXAMPLES).map(k => `<option>${k}</option>`).join('');
+$('examples').onchange = e => { $('typed').value = EXAMPLES[e.target.value]; if (!takeTyped($('typed').value)) choose(mine.i); };
+let typing = 0;
+$('typed').oninput = () => { clearTimeout(typing); typing = setTimeout(() => { if (!takeTyped($('typed').value)) choose(mine.i); }, 400); };
 const list = (id, values, names) => { $(id).innerHTML = values.map((v, i) => `<option value="${v}">${names[i]}</option>`).join(''); };
 list('rule', RULES, RULE_NAMES);
 list('dial', DIALS, DIALS.map(d => d ? `the dial: accurate to 10${sup(Math.log10(d))}` : 'all of length h'));
 list('tolerance', TOLERANCES, TOLERANCES.map(t => t ? `a change below 10${sup(Math.log10(t))}` : 'rounding: symplectic to the last bit'));
 $('scenes').innerHTML = scenes.map((s, i) => `<button type="button" role="radio" data-scene="${s.name}" aria-checked="false">${html(s.title)}</button>`).join('');
-const choose = i => { defaults(i); pointed = false; live.fast = false; $('fast').setAttribute('aria-pressed', false); $('encounter').textContent = ''; live.playing = !calm.matches; turn.yaw = 0.6; turn.pitch = 0.5; apply(false); };
+const choose = i => { if (i === mine.i) start(); defaults(i); pointed = false; live.fast = false; $('fast').setAttribute('aria-pressed', false); $('encounter').textContent = ''; live.playing = !calm.matches; turn.yaw = 0.6; turn.pitch = 0.5; apply(false); };
 $('scenes').onclick = e => { const b = e.target.closest('button'); if (b) choose([...$('scenes').children].indexOf(b)); };
 $('scenes').onkeydown = e => {
   const d = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[e.key];

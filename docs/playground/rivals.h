@@ -8,7 +8,6 @@
 
 #include "scenes.h"
 
-#define ALWAYS static inline __attribute__((always_inline))
 #define ONE(name)                                                                         \
     static int name##_one(const gvi_points *x, void *user)                                \
     {                                                                                     \
@@ -65,7 +64,7 @@ static void rival_bend(const rival *r, int n, const double *q, const double *v, 
     for (int a = 0; a < r->rows; ++a) bend[a] = 0;
     for (double to = e; to > -2*e; to -= 2*e) {
         for (int i = 0; i < n; ++i) moved[i] = q[i] + to*v[i];
-        scene_hold(r->setup, r->on, n, 0, moved, g, G, rate);
+        scene_hold(r->setup, r->on, n, 0, moved, v, g, G, rate);
         for (int a = 0; a < r->rows; ++a)
             for (int i = 0; i < n; ++i) bend[a] += G[a*n+i]*v[i]/(2*to);
     }
@@ -77,7 +76,7 @@ static void rival_hold(const rival *r, int n, const double *y, double *f)
 {
     static double g[SCENE_ROWS], x[SCENE_ROWS], whole[SCENE_ROWS];
     static double G[SCENE_ROWS*SCENE_MOST], A[SCENE_ROWS][SCENE_ROWS];
-    const int m = scene_hold(r->setup, r->on, n, 0, y, g, G, x);
+    const int m = scene_hold(r->setup, r->on, n, 0, y, y + n, g, G, x);
     rival_bend(r, n, y, y + n, 1, x);
     for (int a = 0; a < m; ++a) {
         for (int i = 0; i < n; ++i) x[a] += G[a*n+i]*f[i];
@@ -103,9 +102,15 @@ static void rival_hold(const rival *r, int n, const double *y, double *f)
 }
 
 /* dy = slope of y: (v, M^-1 f) or (v, dL/dq + f).                                         */
-ALWAYS void rival_slope(rival *r, int n, double t, const double *y, double *dy)
+static void rival_slope(rival *r, int n, double t, const double *y, double *dy)
 {
     gvi_points x = { .n = n, .count = 1, .stride = 1, .t = &t, .q = y, .f = dy + n };
+    r->evaluations += 1;
+    if (r->setup->accelerate) {
+        memcpy(dy, y + n, sizeof(double)*(size_t)n);
+        r->setup->accelerate(t, y, y + n, dy + n);
+        return;
+    }
     for (int i = 0; i < n; ++i) dy[n+i] = 0;
     if (r->mass.kind == GVI_MASS_POSITION) {
         x.p = y + n;
@@ -122,13 +127,12 @@ ALWAYS void rival_slope(rival *r, int n, double t, const double *y, double *dy)
     if (r->mass.kind == GVI_MASS_DIAGONAL)
         for (int i = 0; i < n; ++i) dy[n+i] *= r->inverse[i];
     if (r->rows) rival_hold(r, n, y, dy + n);
-    r->evaluations += 1;
 }
 
 static double rival_root8(double x) { return sqrt(sqrt(sqrt(x))); }
 
 /* One step of h of an explicit table.  h k_0..: the slopes stay in r->k.                   */
-ALWAYS void rival_stages(rival *r, int n, const runge_kutta *table, double h)
+static void rival_stages(rival *r, int n, const runge_kutta *table, double h)
 {
     for (int i = r->fresh ? 1 : 0; i < table->stages; ++i) {
         const double *A = table->A[i];
@@ -143,7 +147,7 @@ ALWAYS void rival_stages(rival *r, int n, const runge_kutta *table, double h)
     r->fresh = 0;
 }
 
-ALWAYS void rival_rk4(rival *r, int n, double h)
+static void rival_rk4(rival *r, int n, double h)
 {
     rival_stages(r, n, &classical_table, h);
     const double *b = classical_table.b;
@@ -153,7 +157,7 @@ ALWAYS void rival_rk4(rival *r, int n, double h)
 }
 
 /* Step control as in Hairer's code, with the tolerance for absolute and relative errors.   */
-ALWAYS int rival_dop853(rival *r, int n, double end)
+static int rival_dop853(rival *r, int n, double end)
 {
     const runge_kutta *T = &dop853_table;
     for (int tries = 0; tries < 40; ++tries) {
@@ -193,7 +197,7 @@ ALWAYS int rival_dop853(rival *r, int n, double end)
 }
 
 /* Kick, drift, kick; k[0] keeps the accelerations at the end for the next step.            */
-ALWAYS void rival_verlet(rival *r, int n, double h)
+static void rival_verlet(rival *r, int n, double h)
 {
     if (!r->fresh) rival_slope(r, n, r->t, r->y, r->k[0]);
     for (int i = 0; i < n; ++i) {
@@ -206,28 +210,19 @@ ALWAYS void rival_verlet(rival *r, int n, double h)
     r->fresh = 1;
 }
 
-ALWAYS int rival_step_of(rival *r, int n, double h, double end)
-{
-    if (r->method == RIVAL_DOP853) return rival_dop853(r, n, end);
-    if (r->method == RIVAL_RK4) rival_rk4(r, n, h);
-    else rival_verlet(r, n, h);
-    return 0;
-}
-
-/* A step, n a constant where it pays.  Nonzero: gave up.                                  */
+/* A step.  Nonzero: gave up.                                                              */
 static int rival_step(rival *r, double h, double end)
 {
-    switch (r->n) {
-    case 2:  return rival_step_of(r, 2, h, end);
-    case 3:  return rival_step_of(r, 3, h, end);
-    case 6:  return rival_step_of(r, 6, h, end);
-    default: return rival_step_of(r, r->n, h, end);
-    }
+    if (r->method == RIVAL_DOP853) return rival_dop853(r, r->n, end);
+    if (r->method == RIVAL_RK4) rival_rk4(r, r->n, h);
+    else rival_verlet(r, r->n, h);
+    return 0;
 }
 
 static double rival_energy(rival *r)
 {
     double T = 0, V = 0, v[SCENE_MOST];
+    if (r->setup->energy) return r->setup->energy(r->t, r->y, r->y + r->n);
     gvi_points x = { .n = r->n, .count = 1, .stride = 1, .t = &r->t, .q = r->y, .value = &V };
     for (int e = 0; e < r->effects; ++e)
         if (r->effect[e].value) r->effect[e].value(&x, r->effect[e].user);
@@ -245,7 +240,7 @@ static double rival_energy(rival *r)
 static int rival_holds(rival *r, int n, double t, const double *q)
 {
     static double g[SCENE_ROWS], rate[SCENE_ROWS], G[SCENE_ROWS*SCENE_MOST], bend[2][SCENE_ROWS], v[SCENE_MOST];
-    r->rows = scene_hold(r->setup, r->on, n, t, q, g, G, rate);
+    r->rows = scene_hold(r->setup, r->on, n, t, q, NULL, g, G, rate);
     if (r->rows <= 0) return r->rows == 0;
     for (int i = 0; i < n; ++i) v[i] = i + 1;
     rival_bend(r, n, q, v, 1, bend[0]);
@@ -261,10 +256,11 @@ static int rival_begin(rival *r, int method, int n, const scene_setup *s, unsign
 {
     r->n = n;
     r->method = method;
-    r->mass = s->mass;
+    r->mass = s->accelerate ? (gvi_mass){ 0 } : s->mass;
     r->setup = s;
     r->on = 0;
-    r->effects = r->reads_velocity = r->fresh = 0;
+    r->effects = r->fresh = 0;
+    r->reads_velocity = s->accelerate && s->row[0].effect.kind != GVI_POTENTIAL;
     r->evaluations = 0;
     r->t = t;
     for (int e = 0; e < s->rows; ++e) {
@@ -281,9 +277,9 @@ static int rival_begin(rival *r, int method, int n, const scene_setup *s, unsign
     for (int i = 0; i < n; ++i) {
         r->inverse[i] = s->mass.kind == GVI_MASS_DIAGONAL ? 1/s->mass.matrix[i] : 1;
         r->y[i] = q[i];
-        r->y[n+i] = s->mass.kind == GVI_MASS_POSITION ? p[i] : v[i];
+        r->y[n+i] = r->mass.kind == GVI_MASS_POSITION ? p[i] : v[i];
     }
-    if (!rival_holds(r, n, t, q)) return -1;
+    if (!rival_holds(r, n, t, q) || (r->mass.kind == GVI_MASS_POSITION && !r->mass.velocity)) return -1;
     return method == RIVAL_VERLET && (r->reads_velocity || r->rows || s->mass.kind == GVI_MASS_POSITION) ? -1 : 0;
 }
 

@@ -34,6 +34,8 @@ typedef struct scene_setup {
     const char *mass_text;
     double      q[SCENE_MOST], v[SCENE_MOST];
     double      value[SCENE_PARAMETERS];          /* in: as the sliders stand              */
+    void      (*accelerate)(double t, const double *q, const double *v, double *a);  /* NULL, or for */
+    double    (*energy)(double t, const double *q, const double *v);   /* the rivals instead of rows */
 } scene_setup;
 
 typedef struct scene {
@@ -70,23 +72,26 @@ static inline void scene_add(scene_setup *s, const char *name, const char *what,
     s->row[s->rows++] = (scene_row){ name, what, text, effect, effect, on };
 }
 
-/* g, Jacobian and rate of the constraints in `on` at one point; their rows, -1: too many.   */
-static inline int scene_hold(const scene_setup *s, unsigned on, int n, double t, const double *q,
+/* g or A v + a, Jacobian and rate of the constraints in `on` at one point; their rows, -1: too many. */
+static inline int scene_hold(const scene_setup *s, unsigned on, int n, double t, const double *q, const double *v,
                              double *g, double *G, double *rate)
 {
     int m = 0;
     for (int e = 0; e < s->rows; ++e) {
         const gvi_effect *a = &s->row[e].effect;
-        if (!(on >> e & 1) || a->kind != GVI_CONSTRAINT) continue;
+        if (!(on >> e & 1) || a->kind < GVI_CONSTRAINT) continue;
         if (m + a->rows > SCENE_ROWS) return -1;
         for (int i = 0; i < a->rows*n; ++i) G[m*n+i] = 0;
-        for (int i = 0; i < a->rows; ++i) rate[m+i] = 0;
+        for (int i = 0; i < a->rows; ++i) g[m+i] = rate[m+i] = 0;
         a->points(&(gvi_points){ .n = n, .count = 1, .stride = 1, .t = &t, .q = q, .g = g + m,
                                  .jacobian = G + m*n, .rate = rate + m }, a->user);
+        for (int i = 0; i < a->rows*n && a->kind == GVI_NONHOLONOMIC; ++i) g[m+i/n] += G[m*n+i]*v[i%n];
         m += a->rows;
     }
     return m;
 }
+
+static double scene_push[2];           /* the ground's force, where something rolls            */
 
 static inline void scene_point(double *x, double a, double b, double c)
 {
@@ -716,9 +721,87 @@ static const scene elastic_pendulum = {
     .rod = { { 0, 1, 2 } }, .radius = elastic_radius, .trails = 2, .fixed = 1,
 };
 
+/* ------------------------------------------------------ a coin that rolls: rows on velocities */
+
+SHOWN(coin_text,
+static const struct linear_drag coin_drag = { 2, 3, 0.05, 5 };
+static const struct motor coin_motor = { { -1, 4 }, -0.4, 0, 0, 0 };
+GVI_EACH(coin_mass, 5, mass) {
+    const gvi_real c = cos(x->q[3]);
+    const gvi_real s = sin(x->q[3]);
+    x->mass[0] = x->mass[6] = 1;
+    x->mass[12] = s*s/4 + c*c/2;
+    x->mass[18] = 0.25 + c*c;
+    x->mass[22] = c/2;
+    x->mass[24] = 0.5;
+}
+GVI_EACH(coin_slope, 5, v, f) {
+    const gvi_real c = cos(x->q[3]);
+    const gvi_real s = sin(x->q[3]);
+    const gvi_real *v = x->v;
+    x->f[3] += -c*s*v[3]*v[3] + v[2]*v[2]*s*c/4 - (v[4] + c*v[2])*s*v[2]/2;
+}
+GVI_EACH(coin_weight, 5, f, value) {
+    x->f[3] -= 9.81*cos(x->q[3]);
+    x->value[0] += 9.81*sin(x->q[3]);
+}
+GVI_EACH(coin_rolls, 5, rows(2)) {
+    const gvi_real c = cos(x->q[3]);
+    const gvi_real s = sin(x->q[3]);
+    gvi_real *A = x->jacobian;
+    A[0] = A[6] = 1;
+    A[4] = cos(x->q[2]);
+    A[9] = sin(x->q[2]);
+    A[2] = c*A[4];
+    A[3] = -s*A[9];
+    A[7] = c*A[9];
+    A[8] = s*A[4];
+}
+)
+
+/* The velocity of the centre from the others, so that the point on the ground is at rest   */
+static void coin_build(scene_setup *s)
+{
+    const double a = s->value[0]/57.29577951308232;
+    s->q[3] = a;
+    s->v[2] = s->value[1];
+    s->v[4] = s->value[2];
+    s->v[0] = -(cos(a)*s->v[2] + s->v[4]);
+    MASS(s, ((gvi_mass){ .kind = GVI_MASS_POSITION, .points = coin_mass, .gradient = coin_slope }));
+    ADD(s, "gravity", "potential, of the tilt", 1, ((gvi_effect){ .points = coin_weight, .value = coin_weight }));
+    ADD(s, "rolling", "nonholonomic, two rows", 1, ((gvi_effect){ .kind = GVI_NONHOLONOMIC, .points = coin_rolls, .rows = 2 }));
+    ADD(s, "friction", "torque, reads v", 0, linear_drag(&coin_drag));
+    ADD(s, "drive", "torque on the spin", 0, motor(&coin_motor));
+}
+
+/* From above: where it touches, the end of the ground's push, and the rim from a mark on   */
+static void coin_place(const double *q, unsigned on, double (*x)[3])
+{
+    const double a = cos(q[2]), b = sin(q[2]), c = cos(q[3]), spin = fmod(q[4], 6.283185307179586);
+    scene_point(x[0], q[0] + c*b, q[1] - c*a, 0);
+    scene_point(x[1], on & 2 ? x[0][0] + 0.3*scene_push[0] : NAN, x[0][1] + 0.3*scene_push[1], 0);
+    for (int i = 0; i <= 16; ++i) {
+        const double u = cos(spin + i*0.39269908169872414), w = c*sin(spin + i*0.39269908169872414);
+        scene_point(x[2+i], q[0] + u*a - w*b, q[1] + u*b + w*a, 0);
+    }
+}
+
+static const double coin_radius[19] = { 4, 0, 4 };
+
+static const scene rolling_coin = {
+    .name = "coin", .title = "Rolling coin", .about = "A coin of 1 m and 1 kg, from above: two conditions on velocities "
+    "keep it from slipping. The line is the ground's push. Without rolling it slides, as on ice.",
+    .n = 5, .degree = 8, .h = 0.05, .span = 10, .speed = 1, .time_unit = "s", .error_unit = "m, rad", .length_unit = "m",
+    .parameter = { { "tilt", "\xc2\xb0", 30, 85, 5, 60 }, { "turn", " rad/s", -3, 3, 0.1, 1.5 },
+                   { "spin", " rad/s", -8, 8, 0.1, -4 } },
+    .text = coin_text, .build = coin_build,
+    .bodies = 19, .view = 4.6, .centre = { 0, 3.2, 0 }, .place = coin_place, .rod = { { 0, 1, 2 }, { 2, 1, 17 } },
+    .radius = coin_radius, .trails = 1,
+};
+
 static const scene *const scenes[] = {
     &kepler, &figure_eight, &pythagoras, &double_pendulum, &pendulum_rods, &braced_frame,
-    &spinning_top, &quaternion_top, &spring_net, &charged_particle, &robot_arm, &elastic_pendulum,
+    &spinning_top, &quaternion_top, &spring_net, &charged_particle, &robot_arm, &elastic_pendulum, &rolling_coin,
 };
 
 #endif

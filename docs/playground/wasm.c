@@ -11,7 +11,7 @@
 /* Sine (turns = 0) and cosine (1), to about an ulp for |x| below 8000; NaN beyond, which ends in a
    status.  Without branches or integers, so that loops over points become vectors.  Of the pieces
    of pi/2 the first two have 8 and 11 bits: their products with n are exact.              */
-static inline double bounded_sine(double x, double turns)
+static double bounded_sine(double x, double turns)
 {
     const double n = __builtin_floor(x*0.63661977236758134308 + 0.5), k = n + turns;
     const double half = __builtin_floor(k/2), odd = k - 2*half, lower = half - 2*__builtin_floor(half/2);
@@ -35,6 +35,7 @@ static inline double bounded_sine(double x, double turns)
 #define GVI_STATIC
 #include "gvi.h"
 #include "rivals.h"
+#include "own.h"
 
 #ifdef __wasm__
 #define EXPORT(name) __attribute__((export_name(#name))) name
@@ -59,6 +60,7 @@ typedef struct world {
     double       dial, from;                         /* desc.resolution; where world_open began */
     double       t, q[SCENE_MOST], v[SCENE_MOST], p[SCENE_MOST], before[SCENE_MOST];
     double       total[SCENE_EFFECTS], steps, iterations, evaluations;
+    lagrangian   own;                                /* of the visitor's scene             */
     rival        rival;
     int          method;                             /* of a race; 0: gvi.h                */
     double       step, end, done, count;             /* of a race                          */
@@ -68,11 +70,14 @@ typedef struct world {
 static world worlds[WORLDS];
 static double out[3*SCENE_BODIES + 2*SCENE_MOST];
 static double values[SCENE_PARAMETERS + 1];          /* the last one: the dial, 0 for none */
-static double own_nodes[18], own_weights[18];
+static double kick_table[36];                        /* 18 nodes, 18 weights               */
 
+enum { SCENES = sizeof scenes/sizeof *scenes };
+
+/* The visitor's own is the last one.                                                      */
 static const scene *scene_at(int i)
 {
-    return i >= 0 && i < (int)(sizeof scenes/sizeof *scenes) ? scenes[i] : NULL;
+    return i >= 0 && i < SCENES ? scenes[i] : i == SCENES ? &own_scene : NULL;
 }
 
 static void scene_ready(const scene *a, scene_setup *s, const double *value)
@@ -84,7 +89,7 @@ static void scene_ready(const scene *a, scene_setup *s, const double *value)
 
 /* ------------------------------------------------ what the page asks about scenes */
 
-int EXPORT(scene_count)(void) { return (int)(sizeof scenes/sizeof *scenes); }
+int EXPORT(scene_count)(void) { return SCENES + 1; }
 
 const char *EXPORT(scene_text)(int scene, int field, int i)
 {
@@ -148,6 +153,15 @@ double EXPORT(scene_number)(int scene, int field, int i)
 
 /* ------------------------------------------------------------------ a world */
 
+/* The visitor's Lagrangian, own.h: to be filled before own_take, which says what is wrong or nothing. */
+double *EXPORT(own_room)(void) { return own_typed; }
+
+const char *EXPORT(own_take)(int n, int length, int whole, int points, double span)
+{
+    const char *wrong = own_set(n, length, whole, points, span);
+    return wrong ? wrong : "";
+}
+
 /* To be filled before world_open.                                                         */
 double *EXPORT(parameters)(void) { return values; }
 
@@ -158,10 +172,16 @@ static void kicks_of_order_8(void)
     for (int i = 0; i < 8; ++i) gamma[i] = gamma[16-i] = kahan_li8[i], middle -= 2*kahan_li8[i];
     gamma[8] = middle;
     for (int i = 0; i < 18; ++i) {
-        own_nodes[i] = i < 17 ? at : 1;
-        own_weights[i] = ((i > 0 ? gamma[i-1] : 0) + (i < 17 ? gamma[i] : 0))/2;
+        kick_table[i] = i < 17 ? at : 1;
+        kick_table[18+i] = ((i > 0 ? gamma[i-1] : 0) + (i < 17 ? gamma[i] : 0))/2;
         at += i < 17 ? gamma[i] : 0;
     }
+}
+
+double *EXPORT(kicks)(void)
+{
+    kicks_of_order_8();
+    return kick_table;
 }
 
 static void world_rule(gvi_desc *desc, int degree, int rule)
@@ -173,7 +193,7 @@ static void world_rule(gvi_desc *desc, int degree, int rule)
     if (rule == RULE_VERLET) desc->rule = (gvi_rule){ GVI_KICKS, 2, verlet_nodes, verlet_weights };
     if (rule == RULE_KICKS8) {
         kicks_of_order_8();
-        desc->rule = (gvi_rule){ GVI_KICKS, 18, own_nodes, own_weights };
+        desc->rule = (gvi_rule){ GVI_KICKS, 18, kick_table, kick_table + 18 };
     }
     if (desc->rule.kind == GVI_KICKS) desc->degree = 1;
 }
@@ -191,7 +211,7 @@ static int world_switch(world *w, unsigned changed)
 {
     unsigned listed = 0;
     for (int e = 0; e < w->desc.effect_count; ++e)
-        if (w->effects[e].kind == GVI_CONSTRAINT) listed |= 1u << w->listed[e];
+        if (w->effects[e].kind >= GVI_CONSTRAINT) listed |= 1u << w->listed[e];
     if (!changed || changed & ~listed) return 1;
     for (int e = 0; e < w->desc.effect_count; ++e) {
         const unsigned bit = 1u << w->listed[e];
@@ -231,6 +251,7 @@ int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, 
     w->chosen[1] = rule;
     w->dial = dial;
     scene_ready(a, &w->setup, values);
+    if (a == &own_scene) own_mount(&w->setup, &w->own);
     if (!keep) {                                     /* to be seen even if it does not start */
         w->t = 0;
         memcpy(w->q, w->setup.q, sizeof w->q);
@@ -307,11 +328,11 @@ int EXPORT(world_advance)(int which, double h, int count)
     return GVI_OK;
 }
 
-/* The largest |g| of the constraints that act.                                            */
-static double world_gap(const world *w, double t, const double *q)
+/* The largest |g| or slip of the constraints that act.                                    */
+static double world_gap(const world *w, double t, const double *q, const double *v)
 {
     static double g[SCENE_ROWS], rate[SCENE_ROWS], G[SCENE_ROWS*SCENE_MOST];
-    const int m = scene_hold(&w->setup, w->on, w->scene->n, t, q, g, G, rate);
+    const int m = scene_hold(&w->setup, w->on, w->scene->n, t, q, v, g, G, rate);
     double most = m < 0 ? NAN : 0;
     for (int a = 0; a < m; ++a) most = fabs(g[a]) > most || g[a] != g[a] ? fabs(g[a]) : most;
     return most;
@@ -342,7 +363,10 @@ double EXPORT(world_number)(int which, int field, int i)
         world_remember(w);
         w->scene->quantities(w->q, w->v, w->p, kept);
         return kept[i];
-    case 22: return w->open ? world_gap(w, w->st.t, w->st.q) : NAN;
+    case 22:
+        if (!w->open) return NAN;
+        world_remember(w);
+        return world_gap(w, w->t, w->q, w->v);
     case 30: return w->open ? w->st.q[i] : w->q[i];
     case 31: return w->open ? w->st.p[i] : w->p[i];
     case 32: return w->setup.q[i];
@@ -351,7 +375,7 @@ double EXPORT(world_number)(int which, int field, int i)
     case 41: return w->rival.evaluations;
     case 42: return rival_energy(&w->rival);
     case 43: return w->rival.y[i];
-    case 44: return world_gap(w, w->rival.t, w->rival.y);
+    case 44: return world_gap(w, w->rival.t, w->rival.y, w->rival.y + w->rival.n);
     default: return 0;
     }
 }
@@ -368,8 +392,9 @@ const char *EXPORT(status_text)(int which, int status)
 
 const char *EXPORT(world_call)(int which) { return worlds[(unsigned)which%WORLDS].call; }
 
-static double *world_picture(const world *w, const double *q)
+static double *world_picture(const world *w, double t, const double *q)
 {
+    own.time = t;
     w->scene->place(q, w->on, (double (*)[3])(void *)out);
     return out;
 }
@@ -384,6 +409,8 @@ double *EXPORT(world_place)(int which, double t)
                    && w->setup.row[w->setup.rows - 1].effect.kind == GVI_CLOCK
                    && (w->on >> (w->setup.rows - 1) & 1);
     memcpy(q, w->open ? w->st.q : w->q, sizeof(double)*(size_t)w->scene->n);
+    scene_push[0] = scene_push[1] = 0;
+    if (w->scene->place == coin_place && w->open && w->on & 2 && w->steps > 0) gvi_multipliers(&w->st, scene_push);
     if ((left > 0 || left < 0) && (h > 0 || h < 0)) {
         double tau = 1 + left/h;
         tau = tau < 0 ? 0 : tau > 1 ? 1 : tau;
@@ -393,7 +420,7 @@ double *EXPORT(world_place)(int which, double t)
         } else if (gvi_curve(&w->st, tau, q, NULL) != GVI_OK)
             for (int i = 0; i < w->scene->n; ++i) q[i] = w->before[i] + tau*(w->st.q[i] - w->before[i]);
     }
-    return world_picture(w, q);
+    return world_picture(w, t, q);
 }
 
 /* And on its curve, tau from 0 to 1.                                                      */
@@ -404,7 +431,7 @@ double *EXPORT(world_curve)(int which, double tau)
     if (!w->open || gvi_curve(&w->st, tau, q, NULL) != GVI_OK)
         for (int i = 0; i < w->scene->n; ++i)
             q[i] = w->open ? w->before[i] + tau*(w->st.q[i] - w->before[i]) : w->q[i];
-    return world_picture(w, q);
+    return world_picture(w, w->st.t - (1 - tau)*w->st.h, q);
 }
 
 /* --------------------------------------- Runge-Kutta 4, next to what one sees */
@@ -425,7 +452,11 @@ int EXPORT(ghost_advance)(int which, double h, int count)
     return GVI_OK;
 }
 
-double *EXPORT(ghost_place)(int which) { return world_picture(&worlds[(unsigned)which%WORLDS], worlds[(unsigned)which%WORLDS].rival.y); }
+double *EXPORT(ghost_place)(int which)
+{
+    const world *w = &worlds[(unsigned)which%WORLDS];
+    return world_picture(w, w->rival.t, w->rival.y);
+}
 
 /* -------------------------------------------------------------------- races */
 

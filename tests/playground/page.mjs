@@ -239,6 +239,20 @@ check('a free quaternion: its counter stands still', free.ok && free.goes && (aw
 await page.click('tr[data-effect=unit-length] input');
 check('it can be held again, to rounding', (await soon(page, n => Number(document.querySelector('tr[data-effect=unit-length]').dataset.total) > n, free.held)) && !(await page.isVisible('#alert')) && (await page.evaluate(() => window.gvi.x.world_number(0, 22, 0))) < 1e-15);
 
+/* ---- a coin that rolls ---- */
+await page.click('#scenes button[data-scene=coin]');
+await plotted(page, 2);
+check('the coin does not slip', (await page.evaluate(() => window.gvi.x.world_number(0, 22, 0))) < 1e-14 && (await gap()) < 1e-14, await gap());
+/* on ice no force acts sideways: the momentum of the centre stays */
+const speeds = () => page.evaluate(() => { const { x } = window.gvi, p = i => x.world_number(0, 31, i); return [p(0), p(1)]; });
+await page.click('tr[data-effect=rolling] input');
+const [slid, later] = [await speeds(), await page.waitForTimeout(600).then(speeds)];
+check('without rolling its centre goes straight on', Math.hypot(...slid) > 0.5 && slid.every((p, i) => Math.abs(p - later[i]) < 1e-12), [slid, later]);
+await page.click('tr[data-effect=rolling] input');
+check('it cannot roll again while it slips', /^gvi_switch.*rolling/.test(await page.textContent('#alert-text')), await page.textContent('#alert-text'));
+await page.click('#restart');
+check('but from the start', !(await page.isVisible('#alert')));
+
 /* ---- the address ---- */
 await page.click('#scenes button[data-scene=charge]');
 await page.click('tr[data-effect=electric-field] input');
@@ -278,7 +292,7 @@ for (const name of await page.evaluate(() => [...document.querySelectorAll('#sce
   check(`${name}: runs and is measured`, !state.alert && state.points > 8 && state.reference, { ...state, code: '' });
   programs[name] = state;
 }
-for (const name of ['kepler', 'pendulum', 'rods', 'frame', 'quaternion', 'net', 'pythagoras']) {
+for (const name of ['kepler', 'pendulum', 'rods', 'frame', 'quaternion', 'net', 'pythagoras', 'coin']) {
   const source = join(build, `${name}.c`), binary = join(build, name);
   writeFileSync(source, programs[name].code);
   try {
@@ -288,6 +302,55 @@ for (const name of ['kepler', 'pendulum', 'rods', 'frame', 'quaternion', 'net', 
     check(`${name}: the C says the same`, /^ok/.test(out) && (name === 'pythagoras' || off < 1e-7), [off, out.slice(0, 60)]);
   } catch (e) { check(`${name}: the C compiles`, false, e.message); }
 }
+
+/* ---- the visitor's own Lagrangian ---- */
+await page.click('#scenes button[data-scene=own]');
+check('own: the box and the C are there', (await page.isVisible('#typed')) && (await page.isVisible('#code')));
+const compiled = {};
+for (const example of await page.evaluate(() => [...document.querySelector('#examples').options].map(o => o.value))) {
+  await page.selectOption('#examples', example);
+  await measured(page);
+  const ran = await page.evaluate(() => ({ wrong: document.querySelector('#wrong').className, alert: !document.querySelector('#alert').hidden, points: document.querySelectorAll('.point[data-method="0"]').length, rivals: document.querySelectorAll('.point[data-method="3"]').length, error: +document.querySelectorAll('.point')[0].dataset.error,
+    code: document.querySelector('#code').textContent, reference: window.gvi.problems.get(JSON.stringify([window.gvi.set.scene, window.gvi.set.on, window.gvi.set.p])).reference }));
+  check(`own, ${example}: runs and is measured`, !ran.wrong && !ran.alert && ran.points > 8 && ran.rivals >= 3 && ran.reference, { ...ran, code: '' });
+  compiled[example] = ran;
+}
+writeFileSync(join(build, 'gvi.c'), '#define GVI_IMPLEMENTATION\n#include "gvi.h"\n');
+execFileSync(process.env.CC || 'cc', ['-O1', '-ffp-contract=off', '-I.', '-c', join(build, 'gvi.c'), '-o', join(build, 'gvi.o')]);
+for (const [example, { code, reference }] of Object.entries(compiled)) {
+  const source = join(build, 'own.c'), binary = join(build, 'own');
+  writeFileSync(source, code.replace('#define GVI_IMPLEMENTATION\n', ''));
+  try {
+    execFileSync(process.env.CC || 'cc', ['-O0', '-ffp-contract=off', '-std=c99', '-Wall', '-Wextra', '-Werror', '-I.', '-Iexamples', source, join(build, 'gvi.o'), '-o', binary, '-lm'], { stdio: ['ignore', 'inherit', 'inherit'] });
+    const out = execFileSync(binary, { encoding: 'utf8' }), q = [...out.matchAll(/= (\S+)$/gm)].slice(-reference.length).map(m => Number(m[1]));
+    check(`own, ${example}: the C says the same`, /^ok/.test(out) && Math.max(...q.map((v, i) => Math.abs(v - reference[i]))) < 1e-7, [q, reference]);
+  } catch (e) { check(`own, ${example}: the C compiles`, false, e.message); }
+}
+const said = what => soon(page, w => new RegExp(w).test(document.querySelector('#wrong').textContent), what);
+const goes = async () => soon(page, t => window.gvi.live.t > t, await page.evaluate(() => window.gvi.live.t));
+await page.selectOption('#examples', 'a planet');
+for (const [typed, words] of [['L = vx^2/2 - k*x\nx(0) = 1', '^Line 1, column 14: k is not known'], ['L = 2x', '^Line 1, column 6: .* missing before "x"'], ['x(0) = 1\nL = vx^2 - abs(x)', '^Line 2, column 12: abs has a kink'],
+  ['L = vx^2/2 + y\nx(0) = 1, y(0) = 0', 'no kinetic energy in y at the start']]) {
+  await page.fill('#typed', typed);
+  check(`own, ${JSON.stringify(typed)}: words`, await said(words), await page.textContent('#wrong'));
+  check(`own, ${JSON.stringify(typed)}: what ran before goes on`, (await page.evaluate(() => document.querySelector('#wrong').className === 'bad')) && await goes());
+}
+await page.fill('#typed', 'L = vx^2/2 - 2*x^2\nx(0) = 1\nend = 8');
+check('own, an oscillator: it runs', (await said("L is v'Mv/2")) && (await chosen(page)) === 'positions' && await goes());
+const swing = await page.evaluate(() => { const { x, set } = window.gvi; new Float64Array(x.memory.buffer).fill(0, x.parameters()/8, x.parameters()/8 + 4); x.world_open(2, set.scene, 1, 8, 0, 0, 0); x.world_advance(2, 0.125, 64); return x.world_number(2, 30, 0) - Math.cos(16); });
+check('own, an oscillator: its cosine', Math.abs(swing) < 1e-13, swing);
+const link = await page.evaluate(() => location.hash);
+for (const [hash, works] of [[link, true], ['#scene=own&L=nonsense', false], ['#scene=own', true]]) {
+  const other = await visit(hash), seen = await other.evaluate(() => [document.querySelector('#scene-title').textContent, document.querySelector('#typed').value, document.querySelector('#alert').hidden]);
+  check(`own, a shared address: ${works ? 'as it was' : 'words'}`, (seen[0] === 'Your own L') === works && seen[2] === works && (hash !== link || /2\*x\^2/.test(seen[1])), seen);
+  await leave(other);
+}
+await page.click('#scenes button[data-scene=kepler]');
+check('own: another scene hides it', !(await page.isVisible('#typed')) && (await page.evaluate(() => document.querySelector('.price #code-box') !== null)));
+await page.click('#scenes button[data-scene=own]');
+check('own: and back, as it was', /2\*x\^2/.test(await page.inputValue('#typed')) && (await page.isVisible('#code')) && await goes());
+await page.selectOption('#examples', 'a double pendulum');
+await measured(page);
 
 /* ---- every change of scene: what is said is of this scene ---- */
 const names = await page.evaluate(() => [...document.querySelectorAll('#scenes button')].map(b => b.dataset.scene));
@@ -309,8 +372,8 @@ for (const from of names) for (const to of names) {
   check(`${from} to ${to}: its own words`, said.title === said.button && !said.alert && now === said.here && (!now || Math.abs(h/said.h - 1) < 1e-3), said);
 }
 
-/* ---- all scenes: each effect off, and all together ---- */
-for (const name of names) {
+/* ---- all scenes of effects: each effect off, and all together ---- */
+for (const name of names.filter(n => n !== 'own')) {
   await page.click(`#scenes button[data-scene=${name}]`);
   const effects = await page.evaluate(() => [...document.querySelectorAll('#rows tr')].map(r => [r.dataset.effect, r.querySelector('input').checked]));
   for (const [effect, on] of effects) {
@@ -331,7 +394,7 @@ for (const name of names) {
     if (x.world_open(2, set.scene, 0, set.degree, 0, 0, 0) || x.world_advance(2, h, 10)) return NaN;
     return Math.max(...[...Array(n)].map((_, i) => Math.abs(x.world_number(2, 30, i) - x.world_number(2, 32, i) - 10*h*x.world_number(2, 33, i))));
   });
-  check(`${name} with nothing on: ${/pendulum|top|arm|quaternion/.test(name) ? 'it turns' : 'straight on'}`, /pendulum|top|arm|quaternion/.test(name) ? off === off : off < 1e-13, off);
+  check(`${name} with nothing on: ${/pendulum|top|arm|quaternion|coin/.test(name) ? 'it turns' : 'straight on'}`, /pendulum|top|arm|quaternion|coin/.test(name) ? off === off : off < 1e-13, off);
 }
 await page.click('#scenes button[data-scene=kepler]');
 for (const effect of ['gravity', 'oblateness']) await page.click(`tr[data-effect=${effect}] input`);
@@ -345,7 +408,7 @@ try {
 
 /* ---- the settings one meets first keep the energy level.  N steps, each off by eps (T + |V|) at most and
    independent of the others, are off by sqrt(N) of that.  |V| is what E = T + V leaves: E itself may be near 0. ---- */
-for (const name of names.filter(n => !/pythagoras|pendulum|rods|arm|net/.test(n))) {           // chaotic or driven
+for (const name of names.filter(n => !/pythagoras|pendulum|rods|arm|net|own/.test(n))) {           // chaotic or driven
   const { most, bound } = await page.evaluate(async name => {
     document.querySelector(`#scenes button[data-scene=${name}]`).click();
     const { x, set } = window.gvi, span = x.scene_number(set.scene, 3, 0), n = x.scene_number(set.scene, 0, 0);
@@ -388,11 +451,18 @@ for (const [width, height] of [[1280, 720], [1366, 768], [1920, 1080]]) {
   check(`${width} x ${height}: large enough`, await page.evaluate(() => document.querySelector('#canvas').clientHeight >= 340 && document.querySelector('#cost').clientHeight >= 190));
   check(`${width} x ${height}: nothing sticks out`, await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
   await page.screenshot({ path: join(build, `first-${width}.png`) });
+  await page.click('#scenes button[data-scene=own]');
+  await measured(page);
+  const near = await page.evaluate(() => Object.fromEntries(['#canvas', '#play', '#typed', '#wrong'].map(s => [s, document.querySelector(s).getBoundingClientRect().bottom])));
+  check(`${width} x ${height}: own, at first sight`, Object.values(near).every(y => y <= height) && await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), near);
+  await page.screenshot({ path: join(build, `own-${width}.png`) });
   await leave(page);
 }
 page = await visit('', { viewport: { width: 320, height: 640 } });
 const narrow = await page.evaluate(() => ['#speed', '#speed-out', '#step'].map(s => document.querySelector(s).getBoundingClientRect()).map(r => [r.left, r.right, r.width]));
 check('320 pixels: the speed control is whole', narrow.every(([l, r, w]) => l >= 0 && r <= 308 && w > 20) && narrow[0][2] >= 100, narrow);
+await page.click('#scenes button[data-scene=own]');
+check('320 pixels: own, nothing sticks out', await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth && document.querySelector('#typed').getBoundingClientRect().right <= 308));
 await leave(page);
 for (const [name, hash, options] of [['light', '', { colorScheme: 'light', viewport: { width: 1280, height: 1500 } }], ['dark', '#scene=eight', { colorScheme: 'dark', viewport: { width: 1280, height: 1500 } }], ['rods-dark', '#scene=rods', { colorScheme: 'dark', viewport: { width: 1280, height: 1500 } }], ['phone-rods', '#scene=rods', { colorScheme: 'light', viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true }], ['phone', '#scene=top', { colorScheme: 'light', viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true }], ['phone-dark', '#scene=pendulum', { colorScheme: 'dark', viewport: { width: 360, height: 740 }, isMobile: true, hasTouch: true }]]) {
   page = await visit(hash, options);

@@ -1,0 +1,170 @@
+/* lagrangian.js - what is typed as a Lagrangian: to operations for own.h, and to C for lagrangian.h.
+
+   lagrange(text) gives { names, n, q, v, steps, length, draw, rods, end, timed, c }, or throws an Error that
+   names line and column.  The text: name = value or expression; L = ...; x(0) = value makes x a coordinate,
+   whose velocity is vx (of q1: v1); end = value; draw = (x, y) (x, y), (x, y): what stands together is joined. */
+const MATHS = { sqrt: Math.sqrt, exp: Math.exp, log: Math.log, sin: Math.sin, cos: Math.cos, tan: Math.tan };
+const SIGNS = '?+-*/^';                                  /* their numbers, and after them MATHS: own.h */
+const speedOf = name => /^q\d*$/.test(name) ? name.replace('q', 'v') : 'v' + name;
+
+function lagrange(text) {
+  let at = 0;
+  const stop = (what, where = at) => {
+    const lines = text.slice(0, where).split('\n');
+    throw Error(`Line ${lines.length}, column ${lines.pop().length + 1}: ${what}.`);
+  };
+  const seen = re => {                                   /* the next token, if it is of this kind */
+    const [space] = /^(\s|#.*)*/.exec(text.slice(at));
+    at += space.length;
+    return (re.exec(text.slice(at)) || [])[0];
+  };
+  const take = re => { const word = seen(re); at += word ? word.length : 0; return word; };
+  const NAME = /^[a-z]\w*/i;
+  const found = () => seen(/^./) ? `"${seen(/^(\w+|.)/)}"` : 'the end';
+  const need = (sign, why) => take(RegExp('^\\' + sign)) || stop(`"${sign}" is missing before ${found()}${why || ''}`);
+
+  /* [sign or function, operands], ['number', value] or ['name', name, , place] */
+  function atom() {
+    const number = take(/^(\d+\.?\d*|\.\d+)(e[+-]?\d+)?/i);
+    if (number) return ['number', +number];
+    if (take(/^\(/)) { const inside = sum(); need(')'); return inside; }
+    const name = take(NAME), place = at - (name || '').length;
+    if (!name) stop(`a number, a name or "(" belongs here, not ${found()}`);
+    if (!seen(/^\(/)) return ['name', name, , place];
+    if (/^(f?abs|sign|min|max|floor)$/.test(name)) stop(`${name} has a kink, and L has to be smooth; sqrt(x^2 + 0.01) is`, place);
+    if (name !== 'pow' && !MATHS[name]) stop(`${name} is not a function; there are ${Object.keys(MATHS).join(', ')}, pow and ^`, place);
+    need('(');
+    const inside = sum();
+    if (name !== 'pow') return need(')'), [name, inside];
+    need(',', ': pow takes two');
+    const power = sum();
+    need(')');
+    return ['^', inside, power];
+  }
+  function power() {
+    const base = atom();
+    return take(/^\^/) ? ['^', base, signed()] : base;
+  }
+  const signed = () => take(/^-/) ? ['-', ['number', 0], signed()] : take(/^\+/) ? signed() : power();
+  const chain = (below, signs) => () => {
+    let left = below(), sign;
+    while ((sign = take(signs))) left = [sign, left, below()];
+    return left;
+  };
+  const sum = chain(chain(signed, /^[*/]/), /^[+-]/);
+
+  /* the lines */
+  const lines = new Map(), places = new Map(), points = [], rods = [];
+  for (take(/^[,;]/); seen(/^./); take(/^[,;]/)) {
+    const word = take(NAME), place = at - (word || '').length, zero = take(/^\(\s*0\s*\)/), name = word + (zero ? '(0)' : '');
+    if (!word) stop(`a line begins with a name, not with ${found()}`);
+    if (!take(/^=/)) stop(lines.size ? `a sign such as * is missing before "${word}", or "=" after it` : `"=" is missing after ${name}`, place);
+    if (MATHS[word] || /^(pow|pi|t)$/.test(word) || /^[qv]$/.test(name)) stop(`${word} has a meaning of its own: take another name`, place);
+    if (places.has(name)) stop(`${name} is given twice`, place);
+    places.set(name, place);
+    if (name !== 'draw') { lines.set(name, sum()); continue; }
+    do {
+      const first = points.length;
+      while (seen(/^\(/)) {
+        need('(');
+        points.push(sum());
+        need(',', ': a point is (x, y)');
+        points.push(sum());
+        need(')');
+      }
+      if (points.length === first) stop(`a point (x, y) belongs here, not ${found()}`);
+      rods.push([first / 2, 1, (points.length - first) / 2]);
+    } while (take(/^,/));
+  }
+  const started = [...lines.keys()].filter(a => /\)$/.test(a)).map(a => a.slice(0, -3));
+  const names = started.filter(a => !started.some(b => b !== a && speedOf(b) === a)), n = names.length;
+  if (!n) stop('there is no coordinate: give each its start, such as x(0) = 1');
+  if (n > 8) stop('there is room for 8 coordinates');
+  if (points.length > 24) stop('there is room for 12 points to draw');
+  if (!lines.has('L')) stop('"L = ..." is missing');
+
+  /* Operations: the values are t, q, v, then one of each operation. A constant is { c } until one needs it. */
+  const values = new Map([['t', 0], ['pi', { c: Math.PI }]]), steps = [], same = new Map(), quick = new Set(), made = [];
+  for (const [i, name] of names.entries()) for (const [word, at] of [[name, 1 + i], [speedOf(name), 1 + n + i]]) {
+    if (lines.has(word)) stop(`${word} is a coordinate or its velocity: take another name`, places.get(word));
+    values.set(word, at);
+    if (at > n) quick.add(at);
+  }
+  let timed = false;
+  const step = (...key) => {
+    const id = key.join(' ');
+    if (!same.has(id)) {
+      same.set(id, 2 * n + steps.push(key));
+      if (key[0] && (quick.has(key[1]) || quick.has(key[2]))) quick.add(same.get(id));
+    }
+    return same.get(id);
+  };
+  const slot = a => a.c === undefined ? a : step(0, 0, 0, a.c);
+  const call = (name, a) => a.c === undefined ? step(6 + Object.keys(MATHS).indexOf(name), a, 0, 0) : { c: MATHS[name](a.c) };
+  function valueOf(name, place) {
+    timed ||= name === 't';
+    if (!values.has(name)) {
+      if (!lines.has(name) || name === 'end') stop(`${name} is not known; a coordinate has a start, ${name}(0) = ..., anything else a line of its own`, place);
+      values.set(name, null);
+      const value = make(lines.get(name));
+      if (value.c !== undefined && !isFinite(value.c)) stop(`${name} is no finite number`, places.get(name));
+      values.set(name, value);
+      made.push(name);
+    }
+    return values.get(name) ?? stop(`${name} depends on itself`, place);
+  }
+  function make([kind, left, right, place]) {
+    if (kind === 'number') return { c: left };
+    if (kind === 'name') return valueOf(left, place);
+    const a = make(left);
+    if (MATHS[kind]) return call(kind, a);
+    const b = make(right), both = a.c !== undefined && b.c !== undefined;
+    if (both) return { c: { '+': a.c + b.c, '-': a.c - b.c, '*': a.c * b.c, '/': a.c / b.c, '^': a.c ** b.c }[kind] };
+    if (kind !== '^') return step(SIGNS.indexOf(kind), slot(a), slot(b), 0);
+    return b.c === 2 ? step(3, a, a, 0) : b.c !== undefined ? step(5, a, 0, b.c) : call('exp', step(3, slot(call('log', a)), b, 0));
+  }
+  const constant = (name, otherwise) => {
+    if (!lines.has(name)) return otherwise;
+    const { c } = make(lines.get(name));
+    return isFinite(c) ? c : stop(`${name} has to be a number: ${c === undefined ? 'it depends on what moves' : 'it is not finite'}`, places.get(name));
+  };
+  let root = slot(valueOf('L'));
+  if (root <= 2 * n) root = step(3, root, slot({ c: 1 }), 0);
+  const used = made.slice(0, -1), length = root - 2 * n, hasTime = timed;
+  const q = names.map(a => constant(a + '(0)', 0)), v = names.map(a => constant(speedOf(a) + '(0)', 0)), end = constant('end', 10);
+  if (!(end > 0)) stop('end has to be above 0', places.get('end'));
+  for (const name of lines.keys()) if (!/\)$|^end$/.test(name)) valueOf(name);
+  if (!points.length) for (let i = 0; i < n - (n > 1); i += 2) {
+    points.push(['name', names[i]], n > 1 ? ['name', names[i + 1]] : ['number', 0]);
+    rods.push([i / 2, 1, 1]);
+  }
+  const draw = points.map(p => slot(make(p)));
+  if (draw.some(p => quick.has(p))) stop('a picture is of t and coordinates, not of velocities', places.get('draw'));
+  if (steps.length > 600) stop('there is room for 600 operations');
+
+  /* C */
+  const own = a => /^(t|q|v|user|number|complex|[A-Z_]{3,}|unix|linux|auto|break|case|char|const|continue|default|do|double|else|enum|extern|float|for|goto|if|inline|int|long|register|restrict|return|short|signed|sizeof|static|struct|switch|typedef|union|unsigned|void|volatile|while|asm|typeof)$/.test(a) ? a + '_' : a;
+  const bare = ([kind, left, right]) => kind === 'number' || kind !== 'name' && bare(left) && (!right || bare(right));
+  const met = new Set();
+  /* level: 1 of a sum, 2 of a product, 3 of what binds more; whole numbers among themselves would divide as such */
+  function C([kind, left, right], level, real = true) {
+    const within = (inner, text) => level > inner ? `(${text})` : text;
+    if (kind === 'number') return left + (real && Number.isInteger(left) && left < 1e21 ? '.0' : '');
+    if (kind === 'name') return left === 'pi' ? String(Math.PI) : left === 't' ? left : (met.add(left), own(left));
+    if (MATHS[kind]) return `${kind}(${C(left, 0)})`;
+    const a = l => C(left, l, bare(right)), b = l => C(right, l, bare(left));
+    if (kind === '^') return left[0] === 'name' && right[1] === 2 ? within(2, a(3) + '*' + a(3)) : `pow(${a(0)}, ${b(0)})`;
+    if (kind === '-' && left[0] === 'number' && !left[1]) return within(1, '-' + C(right, 2));
+    return /[+-]/.test(kind) ? within(1, `${a(1)} ${kind} ${b(2)}`) : within(2, a(2) + kind + b(3));
+  }
+  const fold = line => line.replace(/(.{45,68}?) ([+-]) /g, '$1\n            $2 ');
+  const body = ['return ' + C(lines.get('L'), 0)];
+  for (const name of used.reverse()) if (met.has(name)) {
+    const { c } = values.get(name);
+    body.unshift(c === undefined ? `const number ${own(name)} = ${C(lines.get(name), 0)}` : `const double ${own(name)} = ${c}`);
+  }
+  const inputs = names.flatMap((a, i) => [[a, `q[${i}]`], [speedOf(a), `v[${i}]`]]).filter(([a]) => met.has(a)).map(([a, b]) => `${own(a)} = ${b}`);
+  if (inputs.length) body.unshift('const number ' + inputs.join(', '));
+  const c = `LAGRANGIAN(own, ${n})\n{\n${body.map(l => `    ${fold(l)};\n`).join('')}}`;
+  return { names, q, v, n, steps, length, draw, rods, end, timed: hasTime, c };
+}

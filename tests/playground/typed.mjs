@@ -1,0 +1,158 @@
+// typed.mjs [WASM BUILD] - what is typed as a Lagrangian: its parser, its motion, its C.  For bits.mjs, the examples.
+//
+// Values come from JavaScript, motions from the scenes written by hand and from closed forms, and the ends from the
+// C program, whose derivatives are complex steps.
+import { execFileSync } from 'node:child_process';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+
+const page = new URL('../../docs/playground/', import.meta.url), read = name => readFileSync(new URL(name, page), 'utf8');
+const lagrange = new Function(`${read('lagrangian.js')}; return lagrange;`)();
+export const EXAMPLES = new Function(`return ${/const EXAMPLES = (\{[^]*?\n\});/.exec(read('page.js'))[1]};`)();
+
+/* What own_take is given, and what own_room holds then. */
+export function handedOver(text) {
+  const r = lagrange(text), room = new Float64Array(2440);
+  r.steps.forEach((s, k) => room.set(s, 4*k));
+  room.set([...r.q, ...r.v], 2400);
+  room.set(r.draw, 2416);
+  return { r, room, given: [r.n, r.length, r.steps.length, r.draw.length/2, r.end] };
+}
+
+let passed = 0, failed = 0;
+const check = (what, ok, ...seen) => { if (ok) passed++; else failed++, console.error(`FAILED ${what}`, ...seen); };
+
+function test(wasm, build) {
+  const { exports: x } = new WebAssembly.Instance(new WebAssembly.Module(readFileSync(wasm)), {});
+  x._initialize?.();
+  const numbers = new Float64Array(x.memory.buffer), octets = new Uint8Array(x.memory.buffer);
+  const words = p => { let e = p; while (octets[e]) e++; return new TextDecoder().decode(octets.subarray(p, e)); };
+  const OWN = x.scene_count() - 1;
+  const take = text => {
+    const { r, room, given } = handedOver(text);
+    numbers.set(room, x.own_room()/8);
+    r.why = words(x.own_take(...given));
+    r.kind = words(x.scene_text(OWN, 11, 0));
+    return r;
+  };
+  const open = (scene, on, degree = 8) => {
+    for (let i = 0; i < 4; i++) numbers[x.parameters()/8 + i] = i < 3 ? x.scene_number(scene, 33, i) : 0;
+    return x.world_open(1, scene, on, degree, 0, 0, 0);
+  };
+  const end = (scene, on, h, span, method = 0) => {
+    let status = open(scene, on) || x.race_begin(1, method, h, span);
+    while (!status) status = x.race_steps(1, 1000);
+    const n = x.scene_number(scene, 0, 0), q = status === 1 ? x.race_end(1)/8 : NaN;
+    return [...Array(n)].map((_, i) => numbers[q + i] ?? NaN);
+  };
+  const far = (a, b) => Math.max(...a.map((v, i) => Math.abs(v - b[i])));
+  const index = name => { let i = 0; while (words(x.scene_text(i, 0, 0)) !== name) i++; return i; };
+
+  /* values: as a constant, and at rest the energy is -L */
+  for (const [typed, js] of [['2^3^2', 2**9], ['-2^2', -4], ['2^-1', 0.5], ['6/3*2', 4], ['1 - 2 - 3', -4], ['1 - (2 - 3)', 2], ['2*-3', -6], ['--2', 2],
+    ['.5e1 + 1.', 6], ['1e-3', 1e-3], ['pow(2, 0.5)', Math.SQRT2], ['sqrt(2)*sin(1) - cos(2)/tan(0.3)', Math.SQRT2*Math.sin(1) - Math.cos(2)/Math.tan(0.3)],
+    ['exp(log(3))', 3], ['2\n  *3', 6], ['3 # *4\n + 1', 4], ['pi', Math.PI], ['(1+2)*(3+4)', 21], ['8/2/2', 2], ['2*3^2', 18], ['1/2', 0.5]]) {
+    check(`end = ${typed}`, Math.abs(lagrange(`L = vx^2 x(0) = 0 end = ${typed.startsWith('-') || js < 0 ? `100 + (${typed})` : typed}`).end - (js < 0 || typed.startsWith('-') ? 100 + js : js)) <= 1e-14*Math.max(100, Math.abs(js)), typed);
+    /* the same with a coordinate in the place of each number that is not an exponent */
+    const r = take(`u = y/y\nL = vx^2/2 + vy^2/2 + u*(${typed})\nx(0) = 0, y(0) = 3`);
+    open(OWN, 1);
+    check(`L = ${typed}: its value`, !r.why && Math.abs(x.world_number(1, 20, 0) + js) <= 4e-15*Math.max(1, Math.abs(js)), r.why, x.world_number(1, 20, 0), js);
+  }
+  const at = 0.7, b = 1.3;
+  for (const [typed, js] of [['x^y', at**b], ['x^3', at**3], ['x^-2.5', at**-2.5], ['x^0.3', at**0.3], ['2^x', 2**at], ['pow(x, y)', at**b], ['sin(x)/cos(y)', Math.sin(at)/Math.cos(b)], ['tan(x) - exp(-y)', Math.tan(at) - Math.exp(-b)],
+    ['log(x*y)', Math.log(at*b)], ['sqrt(x + y)', Math.sqrt(at + b)], ['-x^2/y', -at*at/b], ['x - y - x*y', at - b - at*b], ['exp(20*x)', Math.exp(14)], ['exp(-30*y)', Math.exp(-39)], ['log(1e-9*x)', Math.log(7e-10)]]) {
+    const r = take(`L = vx^2/2 + vy^2/2 + (${typed})\nx(0) = ${at}, y(0) = ${b}`);
+    open(OWN, 1);
+    check(`${typed}: its value`, !r.why && Math.abs(x.world_number(1, 20, 0) + js) <= 8e-16*Math.max(1, Math.abs(js))*4, r.why, x.world_number(1, 20, 0), js);
+  }
+
+  /* bad input: the place, and why */
+  for (const [typed, line, column, why] of [
+    ['L = 2x', 1, 6, /sign such as \* is missing before "x"/], ['x(0) = 1\nL = vx^2 -', 2, 11, /not the end/], ['x(0) = 1\nL = (vx^2', 2, 10, /"\)" is missing before the end/],
+    ['L = vx^2/2 - abs(x)\nx(0) = 1', 1, 14, /abs has a kink, and L has to be smooth/], ['L = foo(x)', 1, 5, /foo is not a function; there are sqrt, exp/],
+    ['x(0) = 1\nL = vx^2 - k*x', 2, 12, /k is not known/], ['L = vx^2 $', 1, 10, /not with "\$"/], ['L = vx^2/2', 1, 11, /no coordinate/], ['x(0) = 1', 1, 9, /"L = \.\.\." is missing/],
+    ['x(0) = y\ny(0) = 1\nL = vx^2', 1, 1, /x\(0\) has to be a number: it depends on what moves/], ['L = vx^2 + a\na = b\nb = a\nx(0) = 1', 3, 5, /a depends on itself/],
+    ['L = vx^2 x(0) = 0\ndraw = (vx, 0)', 2, 1, /not of velocities/], ['sin = 3', 1, 1, /sin has a meaning/], ['a = 1/0\nL = a*vx^2 x(0) = 1', 1, 1, /a is no finite number/],
+    ['x = 3\nL = vx^2 x(0) = 1', 1, 1, /x is a coordinate/], ['L = pow(x) x(0) = 1', 1, 10, /pow takes two/], ['L = vx^2\nL = 3 x(0) = 1', 2, 1, /L is given twice/], ['L = vx^2 x(0) = 1 end = -1', 1, 19, /end has to be above 0/],
+    ['x(0) = 1\nL = vx^2 draw = x', 2, 17, /a point \(x, y\) belongs here, not "x"/], ['', 1, 1, /no coordinate/], ['L', 1, 1, /"=" is missing after L/], ['t(0) = 1', 1, 1, /t has a meaning/],
+    ['x(0) = 1, y(0) = 2, L = vx^2 +* vy', 1, 31, /not "\*"/], [`L = 1 ${[...'abcdefghi'].map(c => `${c}(0) = 1`).join(' ')}`, 1, undefined, /room for 8 coordinates/]]) {
+    let said = '';
+    try { lagrange(typed); } catch (e) { said = e.message; }
+    check(`${JSON.stringify(typed)} is refused`, said.startsWith(`Line ${line}, column ${column ?? ''}`) && why.test(said), said);
+  }
+  /* whatever is typed: a sentence with its place, or operations whose operands come before them */
+  const WORDS = ['L', '=', 'x', 'vx', 'y', 'vy', '(', ')', '(0)', '=', '1', '2.5', '+', '-', '*', '/', '^', ',', '\n', 'sin', 'pow', 't', 'pi', 'end', 'draw', 'a', '#', '$', 'L = vx^2', 'x(0) = 1', 'q', 'v', 'q(0)=', '\'', '.', 'e5'];
+  let seed = 1, whole = 0, wrong = '';
+  for (let k = 0; k < 100000; k++) {
+    let typed = k % 2 ? 'x(0) = 1 L = vx^2/2 + ' : '';
+    for (let j = 0; j < k % 13; j++) seed = (seed*16807)%2147483647, typed += WORDS[seed%WORDS.length] + (seed & 1024 ? ' ' : '');
+    try {
+      const r = lagrange(typed), inputs = 1 + 2*r.n;
+      whole++;
+      if (!r.steps.every(([op, a, b], i) => op <= 11 && a < inputs + i && b < inputs + i) || !r.draw.every(p => p < inputs + r.steps.length) || !r.length) wrong = typed;
+    } catch (e) { if (!/^Line \d+, column \d+: .{10,200}\.$/s.test(e.message)) wrong = `${typed}: ${e.message}`; }
+  }
+  check('whatever is typed', !wrong && whole > 1000, JSON.stringify(wrong), whole);
+  for (const [typed, why] of [['L = vx^2/2 - y^2\nx(0) = 1, y(0) = 1', /L has no kinetic energy in q\[1\]/], ['L = log(x)*vx^2/2\nx(0) = -1', /L is not finite at the start/],
+    ['L = x*vy - y*vx\nx(0) = 1, y(0) = 1', /linear in v/], ['L = x\nx(0) = 1', /linear in v/], ['L = (vx + vy)^2\nx(0) = 1, y(0) = 1', /some direction/], ['L = vx^2/2 - sqrt(x^2)\nx(0) = 0', /not finite/]])
+    check(`${JSON.stringify(typed)} is refused by lagrangian.h`, why.test(take(typed).why), take(typed).why);
+
+  /* motions: the scenes written by hand, from effects */
+  const MOTIONS = [
+    ['pendulum', 1, "v'M(t,q)v/2 - V(t,q)", EXAMPLES['a double pendulum'], q => q],
+    ['elastic', 3, "v'Mv/2 - V(t,q)", EXAMPLES['a pendulum on a spring'], q => q],
+    ['kepler', 1, "v'Mv/2 - V(t,q)", 'i = 25*pi/180  w = sqrt(39.4784176*4) L = (vx^2 + vy^2 + vz^2)/2 + 39.4784176/sqrt(x^2 + y^2 + z^2)\nx(0) = 0.4, y(0) = 0, z(0) = 0 vy(0) = w*cos(i) vz(0) = w*sin(i)', q => q],
+    ['charge', 5, "v'Mv/2 + a(t,q)'v - V(t,q)", 'L = (vx^2 + vy^2 + vz^2)/2 + (x*vy - y*vx)/2 + 0.6/sqrt(x^2 + y^2 + z^2)\nx(0) = 1, y(0) = 0, z(0) = 0 vy(0) = 1.1, vz(0) = 0.1', q => q],
+    ['top', 1, "v'M(t,q)v/2 - V(t,q)", 'A = 2e-4 C = 8e-5 L = A*(vn^2 + (sin(n)*vp)^2)/2 + C*(vs + cos(n)*vp)^2/2 - 0.1*9.81*0.04*cos(n)\nn(0) = pi/6, p(0) = 0, s(0) = 0 vs(0) = 150', q => q],
+  ];
+  for (const [name, on, kind, typed] of MOTIONS) {
+    const i = index(name), h = x.scene_number(i, 2, 0), span = x.scene_number(i, 3, 0)/4, hand = end(i, on, h/2, span), r = take(typed);
+    check(`${name}: what L is`, !r.why && r.kind === kind, r.why, r.kind);
+    const off = far(end(OWN, 1, h/2, span), hand), size = Math.max(...hand.map(Math.abs)), rival = far(end(OWN, 1, 1e-13, span, 3), hand);
+    check(`${name}: the motion typed is that by hand, to rounding`, off < 1e-12*Math.max(1, size), off);
+    check(`${name}: so is that by DOP853, from second derivatives`, rival < 1e-10*Math.max(1, size), rival);
+  }
+  /* a closed form: a relativistic particle in a uniform field, from rest: x = sqrt(1 + t t) - 1 */
+  const rest = take('L = -sqrt(1 - vx^2 - vy^2) + x\nx(0) = 0, y(0) = 0');
+  check('a relativistic particle: Newton', rest.kind === 'of no special form' && !open(OWN, 1) && x.world_number(1, 4, 0) === 5, rest);
+  const fast = end(OWN, 1, 0.05, 3);
+  check('a relativistic particle: the hyperbola', far(fast, [Math.sqrt(10) - 1, 0]) < 1e-13, fast);
+  /* and with t: a driven oscillator, x = (sin w t - w sin t)/(1 - w w) */
+  check('an oscillator driven: L reads t', take('L = vx^2/2 - x^2/2 + sin(2*t)*x\nx(0) = 0').timed);
+  for (const method of [0, 3]) {
+    const driven = end(OWN, 1, method ? 1e-13 : 0.05, 3, method);
+    check('an oscillator driven: its closed form', far(driven, [(Math.sin(6) - 2*Math.sin(3))/-3]) < 1e-12, driven);
+  }
+
+  /* second derivatives of everything: where v is within f, DOP853 needs them and Galerkin steps do not */
+  for (const f of ['sqrt(u)', 'exp(u)', 'log(u)', 'sin(u)', 'cos(u)', 'tan(u)', 'u^3', 'u^-1.5', 'u^0.3', '2^u', 'u^u', '1/u', 'u*u/(1 + u)', 'u*t - u']) {
+    take(`u = 0.7 + x/8 + vx/9 + y*vy/7\nL = 3*vx^2 + 2*vy^2 - x^2 + x*y + ${f}\nx(0) = 0.3, y(0) = 0.2, vx(0) = 0.1 vy(0) = -0.2`);
+    const [ours, theirs] = [end(OWN, 1, 0.05, 1), end(OWN, 1, 1e-13, 1, 3)], apart = far(ours, theirs);
+    check(`${f}: its second derivatives`, apart < 1e-11, apart);
+  }
+
+  /* the body of the C: compiled as it is, its end by derivatives from complex steps */
+  const TRAPS = { ...EXAMPLES,
+    'whole numbers': 'n = 3\nL = 1/2*vx^2 + 3/2*x*vx - 1/3*x^4 + 7/2 - (1 + 2)/4*x^2 + 2^-1*x - n/2*x^2\nx(0) = 1 end = 2',
+    'names of C': 'int = 2, user = 1, main = 3\nL = vdouble^2/2 - int*double^2*user/main + v^2/2 - q^2\ndouble(0) = 1, q(0) = 0.5 end = 2',
+    'powers': 'L = vx^2/2*(1 + x^2)^1.5 - 2^x - x^-1 - pow(x, 3) - (x + 2)^x + tan(x/4) - log(x)*exp(-x)\nx(0) = 1 end = 1',
+    'order': 'L = vx^2/2 + a - b\nb = a - (x - a*2)/(3*x/2)\na = -x^2/2 - (-x)\nx(0) = 0.4 end = 1' };
+  const cc = (...given) => execFileSync(process.env.CC || 'cc', ['-std=c99', '-I.', '-Iexamples', ...given], { stdio: ['ignore', 'inherit', 'inherit'] });
+  const library = join(build, 'typed-gvi.o');
+  cc('-O1', '-DGVI_IMPLEMENTATION', '-xc', '-c', 'gvi.h', '-o', library);
+  for (const [name, typed] of Object.entries(TRAPS)) {
+    const r = take(typed), source = join(build, 'typed.c'), binary = join(build, 'typed'), steps = 2000;
+    const chaos = name === 'a double pendulum' || name === 'a pendulum on a cart' ? 1e-10 : 1e-12, span = Math.min(r.end, 5);
+    writeFileSync(source, `#include "tools/lagrangian.h"\n${r.c}\nint main(void)\n{\n    static double memory[1 << 17];\n    static lagrangian L;\n    const double q[] = { ${r.q} }, v[] = { ${r.v} };
+    const char *wrong = lagrangian_init(&L, own, NULL, 0, q, v);\n    const gvi_effect effect = lagrangian_effect(&L);\n    const gvi_desc desc = { .n = ${r.n}, .degree = 4, .mass = lagrangian_mass(&L), .effects = &effect, .effect_count = 1 };
+    gvi_stepper st;\n    if (wrong) return puts(wrong), 1;\n    gvi_init(&st, &desc, memory, sizeof memory);\n    gvi_start(&st, 0, q, v);\n    for (int k = 0; k < ${steps}; ++k) gvi_step(&st, ${span}.0/${steps});\n    for (int i = 0; i < ${r.n}; ++i) printf("%.17g\\n", st.q[i]);\n    puts(lagrangian_text(&L));\n    return st.status;\n}\n`.replace(/(\.\d+)\.0\//, '$1/'));
+    try {
+      cc('-Wall', '-Wextra', '-Wpedantic', '-Wconversion', '-Werror', source, library, '-o', binary, '-lm');
+      const said = execFileSync(binary, { encoding: 'utf8' }).trim().split('\n'), kind = said.pop(), q = said.map(Number), here = end(OWN, 1, span/steps, span), off = far(here, q);
+      check(`${name}: the C ends where the page does`, !r.why && kind === r.kind && off < chaos*Math.max(1, ...q.map(Math.abs)), r.why, kind, off, q, here);
+    } catch (e) { check(`${name}: the C compiles`, false, e.message, r.c); }
+  }
+  console.log(`playground: Lagrangians typed, ${passed} passed, ${failed} failed`);
+  process.exit(failed ? 1 : 0);
+}
+if (process.argv[1].endsWith('typed.mjs')) test(...process.argv.slice(2));
