@@ -9195,8 +9195,8 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
     case GVI_E_CALLBACK:    return "an effect (fault.effect) did not return 0: halve h";
     case GVI_E_NON_FINITE:  return "an effect (fault.effect) gave NaN or Inf: halve h";
     case GVI_E_VALUE:       return "an effect (fault.effect) has no value callback";
-    case GVI_E_STATE:       return "gvi_start and a step come first; a time is from st.t0 to st.t, "
-                                   "and no clock went on in between";
+    case GVI_E_STATE:       return "outside the last step, which is from st.t0 to st.t; before "
+                                   "gvi_start or the first step; or a clock is on since";
     case GVI_E_CONJUGATE:   return "conjugate points: the ends do not determine the curve";
     case GVI_E_CLOCK:       return "a clock (fault.effect) must be positive: g <= 0";
     case GVI_E_CONSTRAINT:  return "the state is not on a constraint (fault.effect, its row in "

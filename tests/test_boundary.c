@@ -201,7 +201,7 @@ TEST(the_dial_is_for_boundary_values_too)
         const gvi_desc desc = { .n = 2, .degree = 8, .effects = sun, .effect_count = 1, .resolution = dials[d] };
         gvi_stepper st = new_stepper(&desc);
         int ok = 0, refused = 0;
-        for (int k = 0; k < 300; ++k) {
+        for (int k = 0; k < 400; ++k) {
             const real r = (real)(1.25L + 0.75L*random_unit()), span = (real)(1.55L + 1.25L*random_unit()),
                        h = (real)(1.9L + 1.6L*random_unit());
             const real q0[] = { 1, 0 }, q1[] = { r*cos(span), r*sin(span) };
