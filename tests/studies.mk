@@ -77,6 +77,10 @@ FUZZ_SECONDS = $(if $(filter fuzz,$(MAKECMDGOALS)),60,12)
 fuzz fuzz-short: | $(FIRST)
 	$(STEP) $@ sh tests/tools/under.sh fuzz $(BUILD) $(FUZZ_SECONDS)
 
+#: fuzz-rolling 200,000 random rolling scenes against an index-1 reference (twenty minutes); SEED=2: others
+fuzz-rolling fuzz-rolling-short: $(BUILD)/hard/rolling_scenes
+	$(STEP) $@ $< $(if $(findstring short,$@),2000,200000) $(SEED)
+
 #: deps-firmware installs what firmware, size and boards need: compilers for Arm, RISC-V and AVR, qemu, simavr
 deps-firmware: | $(filter deps deps-check,$(MAKECMDGOALS))
 	$(Q)sh tests/tools/deps.sh --firmware
@@ -193,8 +197,11 @@ from-l: tests/cost/from_l.c $(BUILD)/gvi-double.o
 	$(Q)echo C++ && $(BUILD)/cost/from_l
 
 #: cost-constraints rods and a top with constraints, against RATTLE's compositions and DOP853; chains to 500 rods, 216 molecules (two minutes)
+#: cost-rolling a rolling disc: gvi.h, DOP853 and the midpoint rule on reduced equations (half a minute)
 kicks points: %: $(BUILD)/cost/%
 	$(Q)$< $(COST_ARGS)
+cost-rolling: $(BUILD)/cost/rolling
+	$(Q)$<
 cost-constraints: cost-%: $(BUILD)/cost/%
 	$(Q)$< --out $(BUILD)/cost $(COST_ARGS)
 
@@ -213,7 +220,7 @@ embedded-page:
 $(BUILD)/cost/%.o: tests/cost/%.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c99 $(WARNINGS) -Wno-double-promotion -Wno-unused-parameter -I. -Iexamples -Itests $(CPPFLAGS) -MMD -MP -MF $@.d -MT $@ $(COST_CFLAGS) -c $< -o $@
-$(BUILD)/cost/constraints $(BUILD)/cost/points: %: %.o
+$(BUILD)/cost/constraints $(BUILD)/cost/rolling $(BUILD)/cost/points: %: %.o
 	$(Q)$(CC) $< -o $@ $(LDLIBS)
 $(BUILD)/cost/kicks $(BUILD)/cost/cost: %: %.o $(addprefix $(BUILD)/cost/,problems.o baselines.o gvi_run.o)
 	$(Q)$(CC) $^ -o $@ $(LDLIBS)
@@ -228,7 +235,7 @@ mutants: | $(FIRST)
 
 # -- hard cases and theorems, measured
 
-HARD     = random dial lucky constraints constraints-float eccentric flyby roots eccentric-float pythagorean corners corners-float stiff long long-float brouwer brouwer-float walk drift
+HARD     = random dial lucky constraints constraints-float eccentric flyby roots eccentric-float pythagorean corners corners-float stiff long long-float brouwer brouwer-float walk drift rolling
 ORDERS   = order rules constant counterexample lagrangian curve forced
 THEOREMS = spectral inertia stability modified
 # Orders need more digits than long double has on x86.
