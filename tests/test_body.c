@@ -503,6 +503,35 @@ TEST(a_universal_joint_turns_its_shafts_unevenly)
     }
 }
 
+/* A door, upright or leaning, on a hinge and on a joint that holds its axis once more: redundant rows whose terms are next to 0.
+   It turns as on the hinge alone. */
+TEST(a_door_may_be_held_twice)
+{
+    for (int leans = 0; leans < 2; ++leans)
+        for (int order = 0; order < 2; ++order) {
+            const real e[4] = { cos(R(0.25)*(real)leans), sin(R(0.25)*(real)leans), 0, 0 };
+            const real own[3][3] = { { R(0.5), 0, -1 }, { R(0.5), 0, 1 }, { 0, 0, 1 } };
+            real q[7] = { 0, 0, 0, e[0], e[1], 0, 0 }, v[7] = { 0 }, place[3][3], turn[2][2];
+            for (int i = 0; i < 3; ++i) body_rotate(e, 0, own[i], place[i]);
+            const body_joint hinge[] = { body_joined(BODY_HINGE, q, BODY_WORLD, 0, place[order], place[2], NULL),
+                                         body_joined(8 + 16, q, BODY_WORLD, 0, place[!order], place[2], NULL) };
+            const gvi_effect once[] = { of_bar, body_holds(hinge) }, twice[] = { of_bar, body_holds(hinge + order), body_holds(hinge + !order) };
+            gvi_stepper st[2];
+            for (int both = 0; both < 2; ++both) {
+                gvi_desc desc = { .n = 7, .degree = 6, .effects = both ? twice : once, .effect_count = 2 + both,
+                                  .mass = body_mass(&bars) };
+                desc.mass.velocity = NULL;
+                body_turn(e, (real[]){ 0, 0, 2 }, v + 3);
+                body_cross((real[]){ 0, 0, 2 }, (real[]){ -own[0][0], 0, 0 }, place[0]);
+                body_rotate(e, 0, place[0], v);
+                st[both] = new_motion(&desc, 0, q, v);
+                for (int k = 0; k < 100; ++k) assert_ok(gvi_step(&st[both], R(0.02)));
+                body_turned(hinge, st[both].q, turn[both]);
+            }
+            for (int i = 0; i < 2; ++i) assert_close(turn[1][i], turn[0][i], 256*EPS);
+        }
+}
+
 /* A wheel driven by a torque turns another, 3 to -2: A'' = torque/(I + 9/4 K); the teeth pass K B'' on. */
 GVI_EACH(driven, 14, f)
 {
