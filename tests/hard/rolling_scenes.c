@@ -292,7 +292,10 @@ static exact reference(const scene *s, exact T, exact *y)
         memcpy(fine, y, sizeof fine);
         const exact grade = integrate(s, T, steps, fine);
         off = 0;
-        for (int i = 0; i < 2*N; ++i) off = fmaxl(off, fabsl(fine[i] - coarse[i])/(1 + fabsl(fine[i])));
+        for (int i = 0; i < 2*N; ++i) {
+            const exact apart = fabsl(fine[i] - coarse[i])/(1 + fabsl(fine[i]));
+            if (!(apart <= off) && off >= 0) off = apart;             // keeps NaN
+        }
         memcpy(coarse, fine, sizeof coarse);
         if (off < 1e-14L) return memcpy(y, fine, sizeof fine), grade;
     }
