@@ -393,12 +393,13 @@ static double error_of(const scene *s, const gvi_stepper *st, const double *v, c
     return error*(double)grade/size;
 }
 
-/* Is the status that of the trap, and its fault?  Rows that fit may be refused for a long step, not for one of a 64th */
+/* Is the status that of the trap, and its fault?  For a long step it may be another refusal, not for one of a 64th */
 static int rightly(const scene *s, const exact *y, gvi_stepper *st, gvi_status status)
 {
     double v[N];
     if (s->kind == EMPTY) return status == GVI_E_SINGULAR && st->fault.effect == rolling_effect(s);
     if (s->kind == SLIP) return status == GVI_E_CONSTRAINT && slips(s, y, st->fault.effect, st->fault.coordinate);
+    if (s->kind == QUARREL && status != GVI_E_CONSTRAINT) status = run(s, y, 64*STEPS, st, v);
     if (s->kind == QUARREL) return status == GVI_E_CONSTRAINT && st->fault.effect == rolling_effect(s);
     if (s->kind == AWAKE || s->kind == VANISHING) return 1;
     return run(s, y, 64*STEPS, st, v) == GVI_OK;
