@@ -3,19 +3,18 @@
    A disc that falls and rises, Chaplygin's ball on a plane, a ball in a bowl and a rattleback, at degree 8: slip and rows of
    position stay at rounding.  Two things move the energy E:
 
-     rounding    a force and a velocity at a point are wrong by EPS of themselves (a dozen roundings of EPS/sqrt(12)).  So a
-                 step's work is wrong by s = EPS sqrt(2 sum_i (h v_i F_i)^2 sum_j b_j^2), and that of N steps, were their
-                 errors independent, walks: 4 s sqrt(N) at most (four standard
-                 deviations), and 4 EPS E for reading.  An angle x that grows is rounded itself, by EPS x/4, and the forces
-                 that read it with it (the disc's yaw).  With 16 iterations a step that is all
+     rounding    forces and velocities at a point are wrong by EPS of themselves (a dozen roundings of EPS/sqrt(12)), a step's
+                 work by s = EPS sqrt(2 sum_i (h v_i F_i)^2 sum_j b_j^2).  That of N steps walks, were these errors independent:
+                 4 s sqrt(N) at most (four standard deviations), and 4 EPS E for reading.  An angle x that grows (the disc's
+                 yaw) is rounded itself, by EPS x/4, and with it what reads it.  With 16 iterations a step that is all
      iterations  end by default where they stagnate.  What that leaves is measured in one step of 16 against the same step with
                  16 iterations; its mean, within four standard errors, has to be what the energy drifts by
 
    Angular momentum about the ground: forces wrong by EPS to one side, with levers of 1, sum h F EPS at most.
 
-   Then coarse steps at degree 1 and 2.  The map is symmetric, so where the
-   motion is reversible (v to -v) the energy's error is the same in each tenth of a run, of the size h^2s.  It is not
-   symplectic: a magnetic force, which is odd in v and does no work, is enough for the error to wander.
+   Then coarse steps at degree 1 and 2.  The map is symmetric, so where the motion is reversible (v to -v) the energy's error is
+   the same in each tenth of a run, of the size h^2s.  It is not symplectic: a magnetic force, which is odd in v and does no
+   work, is enough for the error to wander.
 
      rolling [steps of the long runs, 1048576]                                                                  */
 #include "hard.h"
