@@ -7093,28 +7093,36 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
 
 /* Is each g_a within 4096 roundings, of its known terms or as measured?  To measure, take 1/4096 of
    Newton's correction, forwards and back, and less: if g_a follows both, to a quarter of the
-   change that G at both ends tells, its rounding is below that, and g_a is none.  What is left of
-   a row that is left out may be a contradiction, which no move shows.                         */
+   change that G at both ends tells, its rounding is below that, and g_a is none.  Of a row that is
+   left out, what those before it do not explain (A = L D L': L^-1 g) may be a contradiction, which
+   no move shows.  In a step (`start` 0) the others are as exact as its iteration made them.    */
 GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real *q,
-                                    const gvi_real *p, gvi_real *v)
+                                    const gvi_real *p, gvi_real *v, int start)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
+    const gvi_real *A = in->con.gram1;
     gvi_real *g = in->con.g, *was = in->con.rho, *doubt = was + m, *ahead = in->con.y,
              *d = in->con.W, *next = d + n, *G = in->con.G1;
     int off = -1, refused = -1;
 
     for (int a = 0; a < m; ++a) {
-        const gvi_real rounding = GVI__EPS*gvi__terms(st, 1, t, q, G, g + m, a);
-        was[a] = g[a];
-        ahead[a] = -g[a];
-        doubt[a] = (gvi_real)!(GVI_ABS(g[a]) <= GVI__HELD*rounding);
+        const int left_out = in->con.drops[m + a] > 0;
+        gvi_real terms = gvi__terms(st, 1, t, q, G, g + m, a);
+        was[a] = ahead[a] = g[a];
+        for (int l = (int)in->con.first[a]; l < a; ++l) {
+            ahead[a] -= A[a*m + l]*ahead[l];
+            if (left_out) terms += GVI_ABS(A[a*m + l])*gvi__terms(st, 1, t, q, G, g + m, l);
+        }
+        doubt[a] = (gvi_real)((start || left_out) && !(GVI_ABS(left_out ? ahead[a] : g[a])
+                                                       <= GVI__HELD*GVI__EPS*terms));
         if (doubt[a] > 0) off = a;
-        if (doubt[a] > 0 && in->con.drops[m + a] > 0) refused = a;
+        if (doubt[a] > 0 && left_out) refused = a;
     }
 
     if (off < 0) return GVI_OK;
-    gvi__solve_constraints(st, in->con.gram1, 1, 1, ahead, 1);
+    for (int a = 0; a < m; ++a) ahead[a] = -was[a];
+    gvi__solve_constraints(st, A, 1, 1, ahead, 1);
     gvi__zero((size_t)n, d);
     gvi__add_force(st, ahead, d);
     gvi__over_inertia(st, d, 1, 1);
@@ -7193,7 +7201,7 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     }
 
     if (status == GVI_OK) status = gvi__check_rank(st, !start);
-    if ((start || redundant) && status == GVI_OK) status = gvi__fulfilled(st, t, q, p, v);
+    if ((start || redundant) && status == GVI_OK) status = gvi__fulfilled(st, t, q, p, v, start);
     if (status != GVI_OK) return status;
     gvi__zero((size_t)m, in->con.y);
     for (int pass = 0; pass < passes; ++pass) {
@@ -7722,7 +7730,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
 
         if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK
             && change <= least*size + noise) {
-            if (gvi__fulfilled(st, t, next, NULL, u) == GVI_OK) break;
+            if (gvi__fulfilled(st, t, next, NULL, u, 1) == GVI_OK) break;
             status = gvi__constraints_at(st, t, next, NULL, u, drops);
         }
         if (k > 1000 && status == GVI_OK) status = GVI_E_CONVERGENCE;

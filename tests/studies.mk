@@ -77,7 +77,7 @@ FUZZ_SECONDS = $(if $(filter fuzz,$(MAKECMDGOALS)),60,12)
 fuzz fuzz-short: | $(FIRST)
 	$(STEP) $@ sh tests/tools/under.sh fuzz $(BUILD) $(FUZZ_SECONDS)
 
-#: fuzz-rolling 200,000 random rolling scenes against an index-1 reference (a quarter of an hour); SEED=2: others
+#: fuzz-rolling 200,000 random rolling scenes against an index-1 reference (twenty minutes); SEED=2: others
 fuzz-rolling fuzz-rolling-short: $(BUILD)/hard/rolling_scenes
 	$(STEP) $@ $< $(if $(findstring short,$@),2000,200000) $(SEED)
 
@@ -197,13 +197,13 @@ from-l: tests/cost/from_l.c $(BUILD)/gvi-double.o
 	$(Q)echo C++ && $(BUILD)/cost/from_l
 
 #: cost-constraints rods and a top with constraints, against RATTLE's compositions and DOP853; chains to 500 rods, 216 molecules (two minutes)
+#: cost-rolling a rolling disc: gvi.h, DOP853 and the midpoint rule on reduced equations (half a minute)
 kicks points: %: $(BUILD)/cost/%
 	$(Q)$< $(COST_ARGS)
+cost-rolling: $(BUILD)/cost/rolling
+	$(Q)$<
 cost-constraints: cost-%: $(BUILD)/cost/%
 	$(Q)$< --out $(BUILD)/cost $(COST_ARGS)
-#: cost-rolling a rolling disc: gvi.h, DOP853 and the midpoint rule on reduced equations (half a minute)
-cost-rolling: cost-%: $(BUILD)/cost/%
-	$(Q)$<
 
 #: cost-embedded instructions of a step on Cortex-M4F and Cortex-M3 and what they buy (qemu-system-arm; 4 minutes)
 cost-embedded:

@@ -224,13 +224,6 @@ static const body pair[] = { { R(1.5), { 1, 2, R(2.5) } }, { R(0.75), { R(0.5), 
 static const bodies two = { pair, 2 };
 static const real at[2][3] = { { R(0.5), R(-0.25), R(0.125) }, { R(-0.25), R(0.5), R(0.75) } };
 
-/* Where at is, in space. */
-static void place(const real *q, const real *own, real *out)
-{
-    body_rotate(q + 3, 0, own, out);
-    for (int i = 0; i < 3; ++i) out[i] += q[i];
-}
-
 /* f.q' is the force times the velocity of its place, for velocities that leave |e| alone: the place's
    velocity by differences. */
 TEST(the_work_of_a_force_is_that_of_its_place)
@@ -242,7 +235,7 @@ TEST(the_work_of_a_force_is_that_of_its_place)
     body_spin(q + 3, v + 3, spun_back);
     for (int i = 0; i < 3; ++i) assert_close(spun_back[i], w[i], 4*EPS);
     for (int i = 0; i < 7; ++i) moved[0][i] = q[i] - d*v[i], moved[1][i] = q[i] + d*v[i];
-    for (int k = 0; k < 2; ++k) place(moved[k], at[0], there[k]);
+    for (int k = 0; k < 2; ++k) body_place(moved[k], at[0], there[k]);
     for (int i = 0; i < 3; ++i) power += force[i]*(there[1][i] - there[0][i])/(2*d);
 
     body_rotate(q + 3, 1, force, own);
@@ -312,58 +305,290 @@ static void totals(const real *q, const real *p, real *sum)
     }
 }
 
-/* Place a of the first body is place b of the second.  The row of a place is what a unit force there is. */
-static int ball_joint(const gvi_points *x, void *user)
+/* ---- joints ---- */
+
+static const int kinds[] = { BODY_BALL, BODY_UNIVERSAL, BODY_HINGE, BODY_SLIDER, BODY_CYLINDER, BODY_WELD };
+static const real joint_q[14] = { 0, 0, 0, 1, 0, 0, 0, 1, R(0.5), R(-0.25), R(0.5), R(0.5), R(-0.5), R(0.5) },
+                  joint_at[3] = { R(0.5), R(-0.25), R(0.125) }, joint_z[3] = { R(0.5), 1, R(-0.25) }, joint_x[3] = { 1, 0, R(0.5) };
+
+/* An effect's rows at one point */
+static void rows_of(const gvi_effect *effect, int n, const real *q, real *g, real *G)
 {
-    for (int k = 0; k < x->count; ++k) {
-        real q[14], a[3], b[3];
-        body_take(x, x->q, 0, 14, k, q);
-        place(q, at[0], a);
-        place(q + 7, at[1], b);
-        for (int c = 0; c < 3; ++c) {
-            const real plus[3] = { c == 0, c == 1, c == 2 }, minus[3] = { -plus[0], -plus[1], -plus[2] };
-            real row[14] = { 0 };
-            body_force_in_space(q, at[0], plus, row);
-            body_force_in_space(q + 7, at[1], minus, row + 7);
-            x->g[c*x->stride + k] = a[c] - b[c];
-            for (int i = 0; i < 14; ++i) x->jacobian[(c*14 + i)*x->stride + k] = row[i];
-        }
-    }
-    return 0;
+    const real t = 0;
+    const gvi_points x = { .n = n, .count = 1, .stride = 1, .t = &t, .q = q, .g = g, .jacobian = G };
+    for (int i = 0; i < effect->rows*n; ++i) G[i] = 0;
+    assert_int_equal(effect->points(&x, effect->user), 0);
 }
 
-/* Joined, free in space: the joint holds, and nothing changes momentum, angular momentum or energy. */
+static real angle_of(const body_joint *joint, const real *q)
+{
+    real turn[2];
+    body_turned(joint, q, turn);
+    return atan2(turn[1], turn[0]);
+}
+
+/* Rows are 0 where the joint was made, and their jacobian is what differences say, off the joint, too. */
+static void expect_derivatives(const gvi_effect *effect, int n, const real *made)
+{
+    real q[21], g[2][6], there[6], G[126], spare[126], d = cbrt(EPS);
+    rows_of(effect, n, made, there, G);
+    for (int a = 0; a < effect->rows; ++a) assert_close(there[a], 0, 8*EPS);
+    for (int i = 0; i < n; ++i) q[i] = made[i] + R(0.0625)*(real)((i*5)%7 - 3);
+    rows_of(effect, n, q, there, G);
+    for (int i = 0; i < n; ++i) {
+        const real was = q[i];
+        for (int k = 0; k < 2; ++k) {
+            q[i] = was + (k ? d : -d);
+            rows_of(effect, n, q, g[k], spare);
+        }
+        q[i] = was;
+        for (int a = 0; a < effect->rows; ++a)
+            assert_close(G[a*n + i], (g[1][a] - g[0][a])/(2*d), 400*d*d*(1 + fabs(G[a*n + i])));
+    }
+}
+
+TEST(the_jacobians_of_joints_are_their_derivatives)
+{
+    const int rows[] = { 3, 4, 5, 5, 4, 6 };
+    real q[21];
+    for (int i = 0; i < 21; ++i) q[i] = joint_q[i % 14] + (real)(i/14);
+    for (int k = 0; k < COUNT(kinds); ++k)
+        for (int b = 7; b >= BODY_WORLD; b -= 8) {
+            const body_joint joint = body_joined(kinds[k], q, 0, b, joint_at, joint_z, k % 2 ? joint_x : NULL);
+            const gvi_effect effect = body_holds(&joint);
+            assert_int_equal(effect.rows, rows[k]);
+            expect_derivatives(&effect, 14, q);
+        }
+    for (int k = 0; k < 2; ++k) {
+        const body_joint first = body_joined(BODY_HINGE, q, k ? 7 : BODY_WORLD, 0, joint_at, joint_z, NULL),
+                         second = body_joined(BODY_HINGE, q, 7, 14, joint_at, joint_x, NULL);
+        const body_gear gear = { { &first, &second }, { k ? 3 : -5, k ? -2 : 1 } };
+        const gvi_effect effect = body_meshes(&gear);
+        expect_derivatives(&effect, 21, q);
+    }
+    body_rope rope = { { 7, 0, BODY_WORLD }, { { R(0.25), 1, 0 }, { 0, R(0.5), -1 }, { 2, 1, R(0.5) } }, 0 };
+    const gvi_effect effect = body_pulls(&rope);
+    real length, spare[14];
+    rows_of(&effect, 14, q, &length, spare);
+    rope.length = -length;
+    expect_derivatives(&effect, 14, q);
+}
+
+/* Two bodies on a joint, free in space: it holds, its forces do no work and change neither momentum nor angular momentum.
+   From any velocities, made to fit. */
 TEST(two_bodies_on_a_joint_keep_momentum_and_energy)
 {
-    static const gvi_effect joint = { .kind = GVI_CONSTRAINT, .points = ball_joint, .rows = 3 };
-    for (int held = 0; held < 2; ++held) {
-        gvi_effect scene[2] = { joint };
+    for (int kind = 0; kind < 2*COUNT(kinds); ++kind) {
+        const body_joint joint = body_joined(kinds[kind/2], joint_q, 0, 7, joint_at, joint_z, joint_x);
+        const int held = kind % 2;
+        gvi_effect scene[2] = { body_holds(&joint) };
         gvi_desc desc = { .n = 14, .degree = 6, .effects = scene, .effect_count = 1, .mass = body_mass(&two) };
-        real q[14] = { 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, R(0.5), R(0.5), R(0.5), R(0.5) }, v[14] = { 0 };
-        real a[3], b[3], gap[3], E[2], sum[2][6];
+        real q[14], v[14] = { R(0.5), R(-0.25), 0, 0, 0, 0, 0, R(-0.25), 0, R(0.25) }, g[6], G[84], E[2], sum[2][6], moved[2];
         desc.mass.velocity = NULL;
         if (held) hold(&desc, scene, &two);
-        place(q, at[0], a);
-        place(q + 7, at[1], b);
-        for (int i = 0; i < 3; ++i) q[7 + i] = a[i] - b[i];
-        body_turn(q + 3, (real[]){ 1, R(0.5), 0 }, v + 3);              /* the joint is at rest */
+        for (int i = 0; i < 14; ++i) q[i] = joint_q[i];
+        body_turn(q + 3, (real[]){ 1, R(0.5), 0 }, v + 3);
         body_turn(q + 10, (real[]){ 0, -1, 2 }, v + 10);
-        body_cross((real[]){ 1, R(0.5), 0 }, at[0], v);
-        body_cross((real[]){ 0, -1, 2 }, at[1], b);
-        body_rotate(q + 10, 0, b, v + 7);
-        for (int i = 0; i < 3; ++i) v[i] = -v[i], v[7 + i] = -v[7 + i];
-        gvi_stepper st = new_motion(&desc, 0, q, v);
-        for (int k = 0; k <= 200; ++k) {
+        gvi_stepper st = new_stepper(&desc);
+        assert_ok(gvi_project(&st, 0, q, v, moved));
+        assert_ok(gvi_start(&st, 0, q, v));
+        for (int k = 0; k <= 100; ++k) {
             totals(st.q, st.p, sum[k > 0]);
             assert_ok(gvi_energy(&st, &E[k > 0]));
-            place(st.q, at[0], a);
-            place(st.q + 7, at[1], gap);
-            for (int i = 0; i < 3; ++i) assert_close(a[i], gap[i], 8*EPS*(1 + fabs(st.q[i])));
+            rows_of(scene, 14, st.q, g, G);
+            for (int i = 0; i < scene->rows; ++i) assert_close(g[i], 0, 16*EPS*(1 + fabs(st.q[0])));
             for (int i = 0; i < 6 && k; ++i) assert_close(sum[1][i], sum[0][i], 128*EPS);
             if (k) assert_close(E[1], E[0], 64*EPS*E[0]);
             assert_ok(gvi_step(&st, R(0.05)));
         }
     }
+}
+
+static const body bar[] = { { 2, { R(0.5), R(0.375), R(0.25) } } };
+static const bodies bars = { bar, 1 };
+static const real pull = 10;
+
+GVI_EACH(bar_weight, 7, f, value)
+{
+    x->f[2] -= 2*pull;
+    x->value[0] += 2*pull*x->q[2];
+}
+
+static const gvi_effect of_bar = { .kind = GVI_POTENTIAL, .points = bar_weight, .value = bar_weight };
+
+/* A pendulum on a hinge along x at the origin, its centre at (c, l sin a, -l cos a), from rest at a = 1:
+   a'a' = 2 m g l (cos a - cos 1)/I and a'' = -m g l sin a/I, I = Ix + m l l.  The hinge bears m (x'' + g), and a torque
+   that keeps the axis, which passes beside the centre by c; none about it. */
+TEST(a_hinge_bears_what_a_pendulum_asks_for)
+{
+    const real c = R(0.25), l = R(0.5), origin[] = { 0, 0, 0 }, x[] = { 1, 0, 0 }, mgl = 2*pull*l, I = R(0.5) + 2*l*l;
+    const real q[7] = { c, l*sin(R(1.0)), -l*cos(R(1.0)), cos(R(0.5)), sin(R(0.5)), 0, 0 }, v[7] = { 0 };
+    for (int turned_round = 0; turned_round < 2; ++turned_round) {
+        const body_joint hinge = turned_round ? body_joined(BODY_HINGE, q, 0, BODY_WORLD, origin, x, NULL)
+                                              : body_joined(BODY_HINGE, q, BODY_WORLD, 0, origin, x, NULL);
+        const gvi_effect scene[] = { of_bar, body_holds(&hinge) };
+        gvi_desc desc = { .n = 7, .degree = 6, .effects = scene, .effect_count = 2, .mass = body_mass(&bars) };
+        const real sign = turned_round ? -1 : 1, near = (KIND == 1 ? 400 : 4000)*EPS + (KIND == 3 ? R(1e-13) : 0);
+        desc.mass.velocity = NULL;
+        gvi_stepper st = new_motion(&desc, 0, q, v);
+        for (int k = 0; k < 50; ++k) {
+            real lambda[5], force[3], torque[3];
+            assert_ok(gvi_step(&st, R(0.02)));
+            assert_ok(gvi_multipliers(&st, lambda));
+            body_reaction(&hinge, st.q, lambda, force, torque);
+            const real a = 1 + sign*angle_of(&hinge, st.q), rate2 = 2*mgl*(cos(a) - cos(R(1.0)))/I, rate1 = -mgl*sin(a)/I;
+            const real y = 2*l*(rate1*cos(a) - rate2*sin(a)), z = 2*l*(rate1*sin(a) + rate2*cos(a)) + 2*pull;
+            const real force_is[] = { 0, y, z }, torque_is[] = { 0, -c*z, c*y };
+            for (int i = 0; i < 3; ++i) {
+                assert_close(sign*force[i], force_is[i], 2*pull*near);
+                assert_close(sign*torque[i], torque_is[i], 2*pull*near);
+            }
+        }
+    }
+}
+
+/* Down a slide along (0, cos b, -sin b): g sin b t t/2; across it m g cos b, and a torque where the slide is off the centre. */
+TEST(a_slider_bears_the_weight_across_its_way)
+{
+    const real b = R(0.5), q[7] = { 0, 0, 0, 1, 0, 0, 0 }, v[7] = { 0 }, along[] = { 0, cos(b), -sin(b) }, at_side[] = { R(0.5), 0, 0 };
+    const body_joint slide = body_joined(BODY_SLIDER, q, BODY_WORLD, 0, at_side, along, NULL);
+    const gvi_effect scene[] = { of_bar, body_holds(&slide) };
+    gvi_desc desc = { .n = 7, .effects = scene, .effect_count = 2, .mass = body_mass(&bars) };
+    desc.mass.velocity = NULL;
+    gvi_stepper st = new_motion(&desc, 0, q, v);
+    real lambda[5], force[3], torque[3];
+    for (int k = 0; k < 8; ++k) assert_ok(gvi_step(&st, R(0.125)));
+    assert_ok(gvi_multipliers(&st, lambda));
+    body_reaction(&slide, st.q, lambda, force, torque);
+    const real way = pull*sin(b)/2, across = 2*pull*cos(b), known[] = { 0, across*sin(b), across*cos(b) };
+    for (int i = 0; i < 3; ++i) {
+        assert_close(st.q[i], way*along[i], 256*EPS);
+        assert_close(force[i], known[i], 2048*EPS);
+    }
+    /* at (1/2, 0, 0) from the centre: -(1/2, 0, 0) x force */
+    assert_close(torque[0], 0, 2048*EPS);
+    assert_close(torque[1], known[2]/2, 2048*EPS);
+    assert_close(torque[2], -known[1]/2, 2048*EPS);
+}
+
+/* Two shafts at 1/2, hinged to the world, a universal joint between them, no torque: tan b = tan a cos 1/2, and the energy.
+   Three of the 14 rows are redundant. */
+TEST(a_universal_joint_turns_its_shafts_unevenly)
+{
+    const real c = cos(R(0.5)), s = sin(R(0.5)), e = cos(R(0.25)), f = -sin(R(0.25)), r0 = c, w[2] = { 2, 2*r0 };
+    const real z[] = { 0, 0, 1 }, x[] = { 1, 0, 0 }, along[] = { 0, s, c }, pin[] = { 0, c, -s }, centre[] = { 0, 0, 0 };
+    const real q[14] = { 0, 0, -1, 1, 0, 0, 0, 0, s, c, e, f, 0, 0 };
+    for (int first = 0; first < 2; ++first) {                       /* which rows are redundant */
+        const body_joint hinge[] = { body_joined(BODY_HINGE, q, BODY_WORLD, 0, q, z, NULL),
+                                     body_joined(BODY_HINGE, q, BODY_WORLD, 7, q + 7, along, NULL) };
+        const body_joint cross = body_joined(BODY_UNIVERSAL, q, 0, 7, centre, x, pin);
+        const gvi_effect scene[] = { body_holds(first ? &cross : hinge), body_holds(hinge + 1), body_holds(first ? hinge : &cross) };
+        gvi_desc desc = { .n = 14, .degree = 6, .effects = scene, .effect_count = 3, .mass = body_mass(&two) };
+        real v[14] = { 0 }, off = 0;
+        desc.mass.velocity = NULL;
+        for (int i = 0; i < 2; ++i) body_turn(q + 7*i + 3, (real[]){ 0, 0, w[i] }, v + 7*i + 3);
+        gvi_stepper st = new_motion(&desc, 0, q, v);
+        for (int k = 0; k < 100; ++k) {
+            assert_ok(gvi_step(&st, R(0.04)));
+            const real a = angle_of(hinge, st.q), b = angle_of(hinge + 1, st.q), low = cos(a)*cos(a) + c*c*sin(a)*sin(a);
+            real now[14], spun[3];
+            assert_ok(gvi_velocity(&st, now));
+            body_spin(st.q + 3, now + 3, spun);
+            assert_close(sin(b)*cos(a), cos(b)*sin(a)*c, 64*EPS);
+            const real I = pair[0].inertia[2], K = pair[1].inertia[2], r = c/low;
+            assert_close(spun[2]*spun[2]*(I + K*r*r), w[0]*w[0]*(I + K*r0*r0), 1024*EPS + (KIND == 3 ? R(1e-12) : 0));
+            off = fmax(off, fabs(b - a));
+        }
+        assert_between(R(0.05), off, 1);
+    }
+}
+
+/* A door, upright or leaning, on a hinge and on a joint that holds its axis once more: redundant rows whose terms are next to 0.
+   It turns as on the hinge alone. */
+TEST(a_door_may_be_held_twice)
+{
+    for (int leans = 0; leans < 2; ++leans)
+        for (int order = 0; order < 2; ++order) {
+            const real e[4] = { cos(R(0.25)*(real)leans), sin(R(0.25)*(real)leans), 0, 0 };
+            const real own[3][3] = { { R(0.5), 0, -1 }, { R(0.5), 0, 1 }, { 0, 0, 1 } };
+            real q[7] = { 0, 0, 0, e[0], e[1], 0, 0 }, v[7] = { 0 }, place[3][3], turn[2][2];
+            for (int i = 0; i < 3; ++i) body_rotate(e, 0, own[i], place[i]);
+            const body_joint hinge[] = { body_joined(BODY_HINGE, q, BODY_WORLD, 0, place[order], place[2], NULL),
+                                         body_joined(8 + 16, q, BODY_WORLD, 0, place[!order], place[2], NULL) };
+            const gvi_effect once[] = { of_bar, body_holds(hinge) }, twice[] = { of_bar, body_holds(hinge + order), body_holds(hinge + !order) };
+            gvi_stepper st[2];
+            for (int both = 0; both < 2; ++both) {
+                gvi_desc desc = { .n = 7, .degree = 6, .effects = both ? twice : once, .effect_count = 2 + both,
+                                  .mass = body_mass(&bars) };
+                desc.mass.velocity = NULL;
+                body_turn(e, (real[]){ 0, 0, 2 }, v + 3);
+                body_cross((real[]){ 0, 0, 2 }, (real[]){ -own[0][0], 0, 0 }, place[0]);
+                body_rotate(e, 0, place[0], v);
+                st[both] = new_motion(&desc, 0, q, v);
+                for (int k = 0; k < 100; ++k) assert_ok(gvi_step(&st[both], R(0.02)));
+                body_turned(hinge, st[both].q, turn[both]);
+            }
+            for (int i = 0; i < 2; ++i) assert_close(turn[1][i], turn[0][i], 256*EPS);
+        }
+}
+
+/* A wheel driven by a torque turns another, 3 to -2: A'' = torque/(I + 9/4 K); the teeth pass K B'' on. */
+GVI_EACH(driven, 14, f)
+{
+    body_torque(x->q + 3, (real[]){ 0, 0, 1 }, x->f + 3);
+}
+
+TEST(a_gear_turns_two_hinges_in_its_ratio)
+{
+    const real q[14] = { 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 1, 0, 0, 0 }, v[14] = { 0 }, z[] = { 0, 0, 1 };
+    const body_joint hinge[] = { body_joined(BODY_HINGE, q, BODY_WORLD, 0, q, z, NULL),
+                                 body_joined(BODY_HINGE, q, BODY_WORLD, 7, q + 7, z, NULL) };
+    const body_gear gear = { { hinge, hinge + 1 }, { 3, -2 } };
+    const gvi_effect scene[] = { { .kind = GVI_FORCE, .points = driven }, body_holds(hinge), body_holds(hinge + 1), body_meshes(&gear) };
+    gvi_desc desc = { .n = 14, .effects = scene, .effect_count = 4, .mass = body_mass(&two) };
+    const real I = pair[0].inertia[2], K = pair[1].inertia[2], A = 1/(I + 9*K/4);
+    real lambda[11];
+    desc.mass.velocity = NULL;
+    gvi_stepper st = new_motion(&desc, 0, q, v);
+    for (int k = 0; k < 16; ++k) assert_ok(gvi_step(&st, R(0.125)));
+    assert_ok(gvi_multipliers(&st, lambda));
+    assert_close(angle_of(hinge, st.q), 2*A, 256*EPS);
+    assert_close(angle_of(hinge + 1, st.q), 3*A, 256*EPS);
+    assert_close(-2*lambda[10], K*3*A/2, 2048*EPS);
+}
+
+/* Atwood's machine, and from one end hangs another: weights 3 | (1: 2 | 4), the numbers masses; the ring of the second is a body
+   of mass 1.  With u of the first weight and y of the third about its ring, upwards: from Lagrange's equations
+   3 u'' + 1 u'' + 2 (u'' + y'') + 4 (u'' - y'') = g (-3 + 1 + 2 + 4), 2 (u'' + y'') - 4 (u'' - y'') = g (2 - 4)
+   where the ring, at -u, has rope ends at -u - y and -u + y. */
+static const body weights[] = { { 3, { 1, 1, 1 } }, { 1, { 1, 1, 1 } }, { 2, { 1, 1, 1 } }, { 4, { 1, 1, 1 } } };
+static const bodies four = { weights, 4 };
+
+GVI_EACH(four_weights, 28, f)
+{
+    const real m[] = { 3, 1, 2, 4 };
+    for (int i = 0; i < 4; ++i) x->f[7*i + 2] -= pull*m[i];
+}
+
+TEST(ropes_over_pulleys_are_atwoods_machine)
+{
+    const real h = R(0.125), v[28] = { 0 };
+    const body_rope ropes[] = { { { 0, BODY_WORLD, 7 }, { { 0, 0, h }, { 0, 0, 4 }, { 0, 0, h } }, 8 - 2*h },
+                                { { 14, 7, 21 }, { { 0, 0, h }, { 0, 0, -h }, { 0, 0, h } }, 8 - 4*h } };
+    real q[28] = { 0 }, lambda[2];
+    for (int i = 0; i < 4; ++i) q[7*i + 2] = i < 2 ? 0 : -4, q[7*i + 3] = 1;
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = four_weights }, body_pulls(ropes), body_pulls(ropes + 1) };
+    gvi_desc desc = { .n = 28, .degree = 4, .effects = scene, .effect_count = 3, .mass = body_mass(&four) };
+    desc.mass.velocity = NULL;
+    gvi_stepper st = new_motion(&desc, 0, q, v);
+    for (int k = 0; k < 8; ++k) assert_ok(gvi_step(&st, R(0.0625)));
+    assert_ok(gvi_multipliers(&st, lambda));
+    /* 10 u'' - 2 y'' = 4 g, -2 u'' + 6 y'' = -2 g */
+    const real up = pull*20/56, y = -pull*12/56, t2 = R(0.125);
+    const real known[] = { up*t2, -up*t2, -4 - (up + y)*t2, -4 - (up - y)*t2 };
+    for (int i = 0; i < 4; ++i) assert_close(st.q[7*i + 2], known[i], 64*EPS);
+    assert_close(lambda[0], 3*(pull + up), 2048*EPS);
+    assert_close(lambda[1], 2*(pull - up - y), 2048*EPS);
 }
 
 /* ---- Chaplygin's ball, whose inertias differ, on a plane.  Its angular momentum M about the point on the ground is

@@ -326,4 +326,92 @@ TEST(entries_of_mass_are_0_before)
         }
 }
 
+/* ---- the arm of lesson 10: M_ij = B_ij cos(q_i - q_j), as a rigid-body library gives it, M and c(q, v) ---- */
+
+static const real arm_b[3][3] = { { R(0.64), R(0.28), R(0.04) }, { R(0.28), R(0.204), R(0.035) }, { R(0.04), R(0.035), R(0.0133) } };
+
+static real arm_m(const real *q, int i, int j) { return arm_b[i][j]*cos(q[i] - q[j]); }
+
+static real arm_m_slope(const real *q, int i, int j, int k)
+{
+    return -arm_b[i][j]*sin(q[i] - q[j])*(real)((k == i) - (k == j));
+}
+
+static int arm_mass(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k)
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j <= i; ++j)
+                x->mass[(3*i + j)*x->stride + k] = arm_b[i][j]*cos(x->q[i*x->stride + k] - x->q[j*x->stride + k]);
+    return 0;
+}
+
+/* The gradient on paper, or, with user, by differences of v'M v/2 */
+static int arm_gradient(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        real q[3], v[3];
+        for (int i = 0; i < 3; ++i) q[i] = x->q[i*x->stride + k], v[i] = x->v[i*x->stride + k];
+        for (int l = 0; l < 3; ++l) {
+            const real was = q[l], d = R(1e-5);
+            real sum = 0;
+            for (int i = 0; i < 3; ++i)
+                for (int j = 0; j < 3 && !user; ++j) sum += arm_m_slope(q, i, j, l)*v[i]*v[j]/2;
+            for (int side = -1; side <= 1 && user; side += 2) {
+                q[l] = was + (real)side*d;
+                for (int i = 0; i < 3; ++i)
+                    for (int j = 0; j < 3; ++j) sum += (real)side*arm_m(q, i, j)*v[i]*v[j]/(4*d);
+                q[l] = was;
+            }
+            x->f[l*x->stride + k] += sum;
+        }
+    }
+    return 0;
+}
+
+/* c_i = sum_j B_ij sin(q_i - q_j) v_j^2, from Lagrange's equations on paper: what RNEA gives without gravity and acceleration.
+   With C_ij = sum_k (dM_ij/dq_k + dM_ik/dq_j - dM_jk/dq_i) v_k/2, Christoffel's, c = C v. */
+TEST(the_gradient_from_a_rigid_body_library)
+{
+    const real t = 0, q[] = { R(0.5), R(-0.25), R(1.25) }, v[] = { 1, R(-0.5), R(0.75) };
+    real f[3] = { 0 }, C[3][3] = { { 0 } };
+    const gvi_points x = { .n = 3, .count = 1, .stride = 1, .t = &t, .q = q, .v = v, .f = f };
+    arm_gradient(&x, NULL);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            for (int k = 0; k < 3; ++k)
+                C[i][j] += (arm_m_slope(q, i, j, k) + arm_m_slope(q, i, k, j) - arm_m_slope(q, j, k, i))*v[k]/2;
+    for (int i = 0; i < 3; ++i) {
+        real c = 0, Cv = 0, transposed = 0, rate = 0;
+        for (int j = 0; j < 3; ++j) {
+            c += arm_b[i][j]*sin(q[i] - q[j])*v[j]*v[j];
+            Cv += C[i][j]*v[j];
+            transposed += C[j][i]*v[j];
+            for (int k = 0; k < 3; ++k) rate += arm_m_slope(q, i, j, k)*v[k]*v[j];
+        }
+        assert_close(Cv, c, 8*EPS);
+        assert_close(transposed, f[i], 8*EPS);
+        assert_close(rate - c, f[i], 8*EPS);
+    }
+}
+
+AT_EACH(arm_weight) { x->f[a] -= 5*sin(x->q[a]); }
+
+/* 200 steps with a gradient by differences: Newton's method in each of them, or in none with a tolerance above its noise */
+TEST(a_gradient_by_differences_needs_a_tolerance)
+{
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = arm_weight } };
+    const real q[] = { R(0.5), 1, R(0.25) }, v[] = { 0, 0, 0 };
+    static int differences = 1;
+    if (KIND == 1) return;                                        /* 1e-5 is no width for float */
+    for (int tolerant = 0; tolerant < 2; ++tolerant) {
+        const gvi_desc desc = { .n = 3, .degree = 8, .effects = scene, .effect_count = 1, .tolerance = tolerant ? R(1e-10) : 0,
+                                .mass = { .kind = GVI_MASS_POSITION, .points = arm_mass, .gradient = arm_gradient, .user = &differences } };
+        gvi_stepper st = new_motion(&desc, 0, q, v);
+        for (int k = 0; k < 200; ++k) assert_ok(gvi_step(&st, R(0.01)));
+        print_message("    %llu iterations of Newton's method\n", st.counters.newton_iterations);
+        assert_between(tolerant ? 0 : 200, st.counters.newton_iterations, tolerant ? 0 : 100000);
+    }
+}
+
 RUN_TESTS(NULL, NULL)

@@ -82,6 +82,8 @@ typedef struct scene {
     gvi_formulation used;
 } scene;
 
+#define FACTORED { .kind = GVI_MASS_POSITION, .points = pendulum_matrix, .gradient = pendulum_gradient }
+
 static const scene scenes[] = {
     { "positions, degree 1", { HEILES, .degree = 1 }, { heiles_product }, 0, GVI_POSITIONS },
     { "positions, degree 3", { HEILES, .degree = 3 }, { heiles_product }, 0, GVI_POSITIONS },
@@ -106,6 +108,10 @@ static const scene scenes[] = {
     { "M(q), degree 4", { .n = N, .degree = 4, .effects = of_weight, .effect_count = 1, .mass = PENDULUM },
       { weight_product }, 0, GVI_MOMENTA },
     { "M(q) and friction", { .n = N, .degree = 4, .effects = of_rubbed, .effect_count = 2, .mass = PENDULUM },
+      { weight_product, friction_product }, 1, GVI_MOMENTA },
+    { "M(q) to be factored, degree 3", { .n = N, .degree = 3, .effects = of_weight, .effect_count = 1, .mass = FACTORED },
+      { weight_product }, 0, GVI_MOMENTA },
+    { "M(q) to be factored and friction", { .n = N, .degree = 4, .effects = of_rubbed, .effect_count = 2, .mass = FACTORED },
       { weight_product, friction_product }, 1, GVI_MOMENTA },
     { "no mass but a term", { .n = N, .degree = 4, .effects = of_term, .effect_count = 2,
                               .mass = { .kind = GVI_MASS_NONE, .velocity = pendulum_velocity } },
@@ -217,10 +223,11 @@ TEST(every_column_is_what_differences_say)
 {
     for (int i = 0; i < COUNT(scenes); ++i) {
         const scene *s = &scenes[i];
-        const int pendulum = s->desc.effects[0].points == weight, tests = pendulum || s->forced;
+        const int pendulum = s->desc.effects[0].points == weight, tests = pendulum || s->forced,
+                  factored = pendulum && !s->desc.mass.velocity;            // then M has no parameter
         const real h = pendulum ? R(0.0625) : R(0.1875);
         tangent T;
-        gvi_stepper *st = made(&T, s, tests ? 1 : 2*N, tests ? 2 : 0, h);
+        gvi_stepper *st = made(&T, s, tests ? 1 : 2*N, factored ? 1 : tests ? 2 : 0, h);
         for (int k = 0; k < 8; ++k) assert_ok(gvi_step(st, h));
         for (int j = 0; j < T.columns; ++j) {
             real column[2*N], wanted[2*N], most = 1;
@@ -350,7 +357,103 @@ TEST(scenes_without_a_tangent_are_refused)
     assert_status(tangent_scene(&T), GVI_E_FORMULATION);
     T.plain.formulation = GVI_AUTO;
     T.plain.mass.velocity = NULL;
+    T.velocity = NULL;
+    assert_ok(tangent_scene(&T));                                /* factored */
+    T.plain.mass.kind = GVI_MASS_NONE;
     assert_status(tangent_scene(&T), GVI_E_FORMULATION);
+    T.plain.mass.kind = GVI_MASS_POSITION;
+    T.gradient = NULL;
+    assert_status(tangent_scene(&T), GVI_E_ARGUMENT);
+}
+
+/* An arm of six joints, rod after rod, angles to the vertical: M_ij = B_ij cos(q_i - q_j), B_ij = 7 - max(i, j) and 1/4 on the
+   diagonal besides.  No closed form of M^-1. */
+enum { JOINTS = 6, ARM = JOINTS*(1 + 2*JOINTS) };
+
+static real arm_b(int i, int j) { return (real)(7 - (i > j ? i : j)) + (i == j ? R(0.25) : 0); }
+
+static int arm_mass(const gvi_points *x, void *user)
+{
+    for (int i = 0; i < JOINTS; ++i)
+        for (int j = 0; j <= i; ++j)
+            for (int k = 0; k < x->count; ++k)
+                x->mass[(i*JOINTS + j)*x->stride + k] = arm_b(i, j)*cos(x->q[i*x->stride + k] - x->q[j*x->stride + k]);
+    return 0;
+}
+
+static int arm_gradient(const gvi_points *x, void *user)
+{
+    const int s = x->stride;
+    for (int i = 0; i < JOINTS; ++i)
+        for (int j = 0; j < JOINTS; ++j)
+            for (int k = 0; k < x->count; ++k)
+                x->f[i*s + k] -= arm_b(i, j)*sin(x->q[i*s + k] - x->q[j*s + k])*x->v[i*s + k]*x->v[j*s + k];
+    return 0;
+}
+
+static int arm_gradient_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
+{
+    const int s = x->stride;
+    for (int i = 0; i < JOINTS; ++i)
+        for (int j = 0; j < JOINTS; ++j)
+            for (int k = 0; k < x->count; ++k) {
+                const int a = i*s + k, b = j*s + k;
+                const real turn = x->q[a] - x->q[b];
+                d->f[a] -= arm_b(i, j)*(cos(turn)*(d->q[a] - d->q[b])*x->v[a]*x->v[b]
+                                        + sin(turn)*(d->v[a]*x->v[b] + x->v[a]*d->v[b]));
+            }
+    return 0;
+}
+
+AT_EACH(arm_weight) { x->f[a] -= 4*sin(x->q[a]); }
+
+static int arm_weight_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
+{
+    FOR_EACH(x, a) d->f[a] -= 4*cos(x->q[a])*d->q[a];
+    return 0;
+}
+
+TEST(an_arm_of_six_joints_is_symplectic_and_what_differences_say)
+{
+    static real arm_room[TANGENT_ROOM(JOINTS, 2*JOINTS)], M[2*JOINTS][2*JOINTS];
+    const gvi_effect weight_of[] = { { .kind = GVI_POTENTIAL, .points = arm_weight } };
+    const gvi_desc arm = { .n = JOINTS, .degree = 4, .effects = weight_of, .effect_count = 1,
+                           .mass = { .kind = GVI_MASS_POSITION, .points = arm_mass, .gradient = arm_gradient } };
+    tangent T = { .plain = arm, .product = { arm_weight_product }, .gradient = arm_gradient_product,
+                  .directions = 2*JOINTS, .room = arm_room, .room_length = 20*JOINTS + 2*ARM + 2*JOINTS*JOINTS - 1 };
+    real start[2*JOINTS], most = 1, D = pow((real)EPS, R(0.2))/8;
+    assert_status(tangent_scene(&T), GVI_E_MEMORY);
+    ++T.room_length;
+    assert_ok(tangent_scene(&T));
+    for (int i = 0; i < JOINTS; ++i) start[i] = R(0.25)*(real)(1 + i%3), start[JOINTS + i] = R(0.5)*(real)(i%2) - R(0.25);
+    gvi_stepper st = new_stepper(&T.desc);
+    assert_ok(tangent_start(&T, &st, 0, start, start + JOINTS, NULL, NULL));
+    for (int k = 0; k < 10; ++k) assert_ok(gvi_step(&st, R(0.03125)));
+    for (int j = 0; j < 2*JOINTS; ++j) {
+        tangent_column(&T, &st, j, M[j], M[j] + JOINTS);
+        for (int i = 0; i < 2*JOINTS; ++i) most = fmax(most, fabs(M[j][i]));
+    }
+    for (int a = 0; a < 2*JOINTS; ++a)
+        for (int b = 0; b < 2*JOINTS; ++b) {
+            long double z = 0;
+            for (int i = 0; i < JOINTS; ++i)
+                z += (long double)M[a][i]*M[b][JOINTS + i] - (long double)M[a][JOINTS + i]*M[b][i];
+            assert_close(z, (b == a + JOINTS) - (a == b + JOINTS), 16*EPS*most*most);
+        }
+    for (int j = 0; j < 2*JOINTS; ++j) {
+        real slope[2*JOINTS] = { 0 };
+        for (int z = 0; z < 4; ++z) {
+            const real move = (z%2 ? -1 : 1)*(z/2 ? 2*D : D), w = (real)((z%2 ? -1 : 1)*(z/2 ? -1 : 8))/(12*D);
+            real from[2*JOINTS];
+            memcpy(from, start, sizeof from);
+            from[j] += move;
+            gvi_stepper one = new_stepper(&arm);
+            assert_ok(gvi_start_momentum(&one, 0, from, from + JOINTS));
+            for (int k = 0; k < 10; ++k) assert_ok(gvi_step(&one, R(0.03125)));
+            for (int i = 0; i < JOINTS; ++i) slope[i] += w*one.q[i], slope[JOINTS + i] += w*one.p[i];
+        }
+        for (int i = 0; i < 2*JOINTS; ++i) assert_close(M[j][i], slope[i], 400*pow((real)EPS, R(0.8))*most);
+    }
 }
 
 static int wrong_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)

@@ -16,9 +16,9 @@
                    mass = 0: e (4) alone.  Bodies one after the other; n is their sum
      |e| = 1       held to rounding by one more row of the scene, body_unit(&scene); then with
                    .mass.velocity = NULL.  The same curves: each row here serves both ways
-     rolling       balls and wheels: body_rolls(&round) and body_touches(&round), at the end of this file
-     joints        a row dg/dq of a place held in space, of a body with mass, is what
-                   body_force_in_space makes of a unit force there, in zeros
+     rolling       balls and wheels: body_rolls(&round) and body_touches(&round)
+     joints        between bodies with mass, or one and the world: body_joined(BODY_HINGE, ...), body_gear,
+                   body_rope, at the end of this file, with the forces that they bear
      body axes     principal axes through the centre of mass, or through the fixed point
      force, torque add to the f of an effect at one point (GVI_POINTS), q and f being that body's
      start         e, and e' = body_turn(e, w) for a spin w in body axes
@@ -36,6 +36,7 @@
 #endif
 
 #include "gvi.h"
+#include <stdlib.h>
 typedef struct body { gvi_real mass, inertia[3]; } body;
 typedef struct bodies { const struct body *body; int count; } bodies;
 
@@ -322,6 +323,240 @@ static inline gvi_effect body_rolls(const body_round *a)
 static inline gvi_effect body_touches(const body_round *a)
 {
     return (gvi_effect){ .kind = GVI_CONSTRAINT, .points = body_touches_points, .user = (void *)a, .rows = 1 };
+}
+
+/* ------------------------------------------------------- joints, gears and ropes
+
+   Between bodies with mass, given by their first coordinate of 7, or one and BODY_WORLD.  A joint has a frame at a
+   place, of which one copy goes with a, one with b; where it is made, they are one.  It holds a sum of
+
+      1, 2, 4   b's place is at a's: along x, y, z of a's frame       8, 16   z of a at right angles to x, y of b
+                                                                         32   x of a at right angles to y of b
+
+   in this order its rows.  No row reads velocities or t.  Rows that a closed loop makes redundant are left out by the
+   library, and the rows before them bear their share; a scene has no more rows than coordinates.      */
+enum { BODY_WORLD = -1 };
+enum { BODY_BALL = 7, BODY_UNIVERSAL = 15,     /* its pins are z, fixed in a, and x, fixed in b    */
+       BODY_HINGE = 31, BODY_SLIDER = 59,      /* about z, along z                                 */
+       BODY_CYLINDER = 27, BODY_WELD = 63 };   /* both; none                                       */
+
+typedef struct body_joint { int holds, a, b; gvi_real place[2][3], axis[2][3][3]; } body_joint;
+
+/* A multiplier of 1 is this force at this place and this torque, all in space, on b, and the opposite on a. */
+typedef struct body_row { gvi_real g, place[3], force[3], torque[3]; } body_row;
+
+/* The joint as the bodies lie at q, its place, z and x in space; x is made square to z.  NULL: any x.  */
+static inline body_joint body_joined(int holds, const gvi_real *q, int a, int b, const gvi_real *place,
+                                     const gvi_real *z, const gvi_real *x)
+{
+    const gvi_real none[7] = { 0, 0, 0, 1, 0, 0, 0 };
+    const int flat = z[0]*z[0] > z[1]*z[1];
+    const gvi_real any[3] = { (gvi_real)!flat, (gvi_real)flat, 0 };
+    body_joint j = { .holds = holds, .a = a, .b = b };
+    gvi_real axis[3][3];
+    body_cross(z, x ? x : any, axis[1]);
+    body_cross(axis[1], z, axis[0]);
+    for (int i = 0; i < 3; ++i) axis[2][i] = z[i];
+    for (int c = 0; c < 3; ++c) {
+        gvi_real *d = axis[c], size = GVI_SQRT(d[0]*d[0] + d[1]*d[1] + d[2]*d[2]);
+        for (int i = 0; i < 3; ++i) d[i] /= size;
+    }
+    for (int side = 0; side < 2; ++side) {
+        const int at = side ? b : a;
+        const gvi_real *own = at < 0 ? none : q + at;
+        gvi_real from[3];
+        for (int i = 0; i < 3; ++i) from[i] = place[i] - own[i];
+        body_rotate(own + 3, 1, from, j.place[side]);
+        for (int c = 0; c < 3; ++c) body_rotate(own + 3, 1, axis[c], j.axis[side][c]);
+    }
+    return j;
+}
+
+/* The 7 of a body, or of the world, at point k.                                                   */
+static inline void body_seven(const gvi_points *x, int at, int k, gvi_real *q)
+{
+    for (int i = 0; i < 7; ++i) q[i] = at < 0 ? (gvi_real)(i == 3) : x->q[(at + i)*x->stride + k];
+}
+
+/* A place of a body, in space.                                                                    */
+static inline void body_place(const gvi_real *q, const gvi_real *own, gvi_real *out)
+{
+    body_rotate(q + 3, 0, own, out);
+    for (int i = 0; i < 3; ++i) out[i] += q[i];
+}
+
+/* Of axis i of a and axis k of b: their product, a.b, and the torque on b that makes it grow.      */
+static inline gvi_real body_between(const body_joint *j, gvi_real (*q)[7], int i, int k, gvi_real *torque)
+{
+    gvi_real a[3], b[3];
+    body_rotate(q[0] + 3, 0, j->axis[0][i], a);
+    body_rotate(q[1] + 3, 0, j->axis[1][k], b);
+    body_cross(b, a, torque);
+    return a[0]*b[0] + a[1]*b[1] + a[2]*b[2];
+}
+
+/* Row 1 << bit of a joint whose bodies' coordinates are q[0], q[1].                                */
+static inline body_row body_joint_row(const body_joint *j, gvi_real (*q)[7], int bit)
+{
+    static const int pair[3][2] = { { 2, 0 }, { 2, 1 }, { 0, 1 } };
+    body_row row = { .g = 0 };
+    gvi_real a[3];
+    body_place(q[1], j->place[1], row.place);
+    if (bit >= 3) row.g = body_between(j, q, pair[bit - 3][0], pair[bit - 3][1], row.torque);
+    else {
+        body_place(q[0], j->place[0], a);
+        body_rotate(q[0] + 3, 0, j->axis[0][bit], row.force);
+        for (int i = 0; i < 3; ++i) row.g += (row.place[i] - a[i])*row.force[i];
+    }
+    return row;
+}
+
+/* `times` that force and torque in row a of the jacobian, on the body at `at`, whose coordinates are q. */
+static inline void body_enter(const gvi_points *x, int k, int a, const body_row *row, int at, const gvi_real *q,
+                              gvi_real times)
+{
+    gvi_real from[3], f[7] = { 0, 0, 0, 0, 0, 0, 0 };
+    for (int i = 0; i < 3; ++i) from[i] = row->place[i] - q[i];
+    body_contact_row(q, from, row->force, f);
+    body_torque_in_space(q + 3, row->torque, f + 3);
+    for (int i = 0; i < 7 && at >= 0; ++i) x->jacobian[(a*x->n + at + i)*x->stride + k] += times*f[i];
+}
+
+/* The 7 of both bodies, at point k.                                                               */
+static inline void body_both(const gvi_points *x, const body_joint *j, int k, gvi_real (*q)[7])
+{
+    body_seven(x, j->a, k, q[0]);
+    body_seven(x, j->b, k, q[1]);
+}
+
+static inline int body_joint_points(const gvi_points *x, void *user)
+{
+    const body_joint *j = (const body_joint *)user;
+    for (int k = 0; k < x->count; ++k) {
+        gvi_real q[2][7];
+        body_both(x, j, k, q);
+        for (int bit = 0, a = 0; bit < 6; ++bit) {
+            if (!(j->holds >> bit & 1)) continue;
+            const body_row row = body_joint_row(j, q, bit);
+            x->g[a*x->stride + k] = row.g;
+            body_enter(x, k, a, &row, j->b, q[1], 1);
+            body_enter(x, k, a++, &row, j->a, q[0], -1);
+        }
+    }
+    return 0;
+}
+
+static inline gvi_effect body_holds(const body_joint *j)
+{
+    int rows = 0;
+    for (int bit = 0; bit < 6; ++bit) rows += j->holds >> bit & 1;
+    return (gvi_effect){ .kind = GVI_CONSTRAINT, .points = body_joint_points, .user = (void *)j, .rows = rows };
+}
+
+/* The force on b, at its place of the joint, and the torque, in space, at q = st->q; lambda: the first of the
+   joint's rows in what gvi_multipliers gives.  On a: the opposite.                                  */
+static inline void body_reaction(const body_joint *j, const gvi_real *q, const gvi_real *lambda, gvi_real *force, gvi_real *torque)
+{
+    const gvi_points x = { .stride = 1, .q = q };
+    gvi_real both[2][7];
+    body_both(&x, j, 0, both);
+    for (int i = 0; i < 3; ++i) force[i] = torque[i] = 0;
+    for (int bit = 0; bit < 6; ++bit) {
+        if (!(j->holds >> bit & 1)) continue;
+        const body_row row = body_joint_row(j, both, bit);
+        for (int i = 0; i < 3; ++i) force[i] += *lambda*row.force[i], torque[i] += *lambda*row.torque[i];
+        ++lambda;
+    }
+}
+
+/* Cosine and sine of the angle by which b has turned about z since the joint was made; and the torques on b that make them
+   grow.                                                                                             */
+static inline void body_turning(const body_joint *j, gvi_real (*q)[7], gvi_real *turn, gvi_real (*torque)[3])
+{
+    turn[0] = body_between(j, q, 0, 0, torque[0]);
+    turn[1] = body_between(j, q, 1, 0, torque[1]);
+}
+
+/* The two at q = st->q: the angle is atan2(turn[1], turn[0]).                                        */
+static inline void body_turned(const body_joint *j, const gvi_real *q, gvi_real *turn)
+{
+    const gvi_points x = { .stride = 1, .q = q };
+    gvi_real both[2][7], torque[2][3];
+    body_both(&x, j, 0, both);
+    body_turning(j, both, turn, torque);
+}
+
+/* Of hinges turned by A and B since they were made: teeth[0] A + teeth[1] B = 0, as the row
+   g = sin(teeth[0] A + teeth[1] B).  Whole numbers, positive where the hinges turn opposite ways, as small as
+   the ratio allows.  A multiplier times teeth is the torque about that hinge's z.                    */
+typedef struct body_gear { const body_joint *hinge[2]; int teeth[2]; } body_gear;
+
+static inline int body_gear_points(const gvi_points *x, void *user)
+{
+    const body_gear *gear = (const body_gear *)user;
+    for (int k = 0; k < x->count; ++k) {
+        gvi_real q[2][2][7], turn[2][2], torque[2][2][3], re = 1, im = 0;      // of the product of (cos + i sin)^teeth
+        for (int s = 0; s < 2; ++s) {
+            const int back = gear->teeth[s] < 0;
+            body_both(x, gear->hinge[s], k, q[s]);
+            body_turning(gear->hinge[s], q[s], turn[s], torque[s]);
+            if (back) turn[s][1] = -turn[s][1];
+            for (int i = 0; i < 3 && back; ++i) torque[s][1][i] = -torque[s][1][i];
+            for (int tooth = abs(gear->teeth[s]); tooth > 0; --tooth) {
+                const gvi_real was = re;
+                re = was*turn[s][0] - im*turn[s][1];
+                im = was*turn[s][1] + im*turn[s][0];
+            }
+        }
+        x->g[k] = im;
+        for (int s = 0; s < 2; ++s) {                                          // d(z^n) = n z^n dz/z
+            const gvi_real c = turn[s][0], d = turn[s][1], n = (gvi_real)abs(gear->teeth[s])/(c*c + d*d);
+            const gvi_real by_cos = n*(im*c - re*d), by_sin = n*(im*d + re*c);
+            body_row row = { .g = 0 };
+            for (int i = 0; i < 3; ++i) row.torque[i] = by_cos*torque[s][0][i] + by_sin*torque[s][1][i];
+            body_enter(x, k, 0, &row, gear->hinge[s]->b, q[s][1], 1);
+            body_enter(x, k, 0, &row, gear->hinge[s]->a, q[s][0], -1);
+        }
+    }
+    return 0;
+}
+
+static inline gvi_effect body_meshes(const body_gear *gear)
+{
+    return (gvi_effect){ .kind = GVI_CONSTRAINT, .points = body_gear_points, .user = (void *)gear, .rows = 1 };
+}
+
+/* A rope from a place of one body through a ring of another, a small pulley without mass, to a place of a third: any of them
+   BODY_WORLD.  Its multiplier is its tension: above 0, or the rope would be slack.                  */
+typedef struct body_rope { int at[3]; gvi_real place[3][3], length; } body_rope;
+
+static inline int body_rope_points(const gvi_points *x, void *user)
+{
+    const body_rope *rope = (const body_rope *)user;
+    for (int k = 0; k < x->count; ++k) {
+        gvi_real q[3][7];
+        body_row end[3];
+        for (int i = 0; i < 3; ++i) {
+            end[i] = (body_row){ .g = 0 };
+            body_seven(x, rope->at[i], k, q[i]);
+            body_place(q[i], rope->place[i], end[i].place);
+        }
+        x->g[k] = rope->length;
+        for (int i = 0; i < 3; i += 2) {
+            gvi_real d[3], size = 0;
+            for (int c = 0; c < 3; ++c) d[c] = end[1].place[c] - end[i].place[c], size += d[c]*d[c];
+            size = GVI_SQRT(size);
+            for (int c = 0; c < 3; ++c) end[i].force[c] = d[c]/size, end[1].force[c] -= d[c]/size;
+            x->g[k] -= size;
+        }
+        for (int i = 0; i < 3; ++i) body_enter(x, k, 0, end + i, rope->at[i], q[i], 1);
+    }
+    return 0;
+}
+
+static inline gvi_effect body_pulls(const body_rope *rope)
+{
+    return (gvi_effect){ .kind = GVI_CONSTRAINT, .points = body_rope_points, .user = (void *)rope, .rows = 1 };
 }
 
 #endif

@@ -12,8 +12,11 @@
 
      columns   directions, then parameters, then h if by_h is set
      rows      coordinate i of the scene is row i; of column j, row n (1 + j) + i
-     masses    constant ones are repeated.  M(q), and no mass, want mass.velocity
-               and work in momenta:   v = M^-1 p     dv = M^-1 (dp - dM v)
+     masses    constant ones are repeated.  M(q) and no mass work in momenta:
+               v = M^-1 p     dv = M^-1 (dp - dM v)
+               with products of mass.velocity and mass.gradient.  M(q) without mass.velocity
+               is factored here, and dM comes from the gradient's product alone, n of them a
+               point: df_i/dv_j = sum_k dM_jk/dq_i v_k.  Parameters must not be in M then
      parameter theta: a column that starts from zero and gets dF/dtheta besides
      h         (autonomous scenes, all steps of length h): with dp + p/h in the
                place of dp, and so dv + v/h in that of dv, the column obeys (1), (2)
@@ -23,8 +26,8 @@
    derivative of the discrete action in the direction d.  Varying d gives the
    scene's own equations, varying q their derivative.
 
-   Refused: constraints (by gvi_init), a clock (GVI_E_FORMULATION), M(q)
-   or no mass without mass.velocity, or pinned to Newton's method (the same), an
+   Refused: constraints (by gvi_init), a clock (GVI_E_FORMULATION), no mass
+   without mass.velocity, M(q) pinned to Newton's method (the same), an
    effect without its product (GVI_E_ARGUMENT).  gvi_energy of the larger scene
    says GVI_E_VALUE.  A wrong product cannot be seen by a step: tangent_check.
 
@@ -92,7 +95,7 @@ typedef struct tangent {
     int          columns;
 } tangent;
 
-/* Enough for any kind of mass; without a dense one 13 N numbers are enough. */
+/* Enough for any kind of mass; without a dense one, or M(q) to be factored, 13 N numbers are enough. */
 #define TANGENT_N(n, columns)    ((size_t)(n)*(1 + (size_t)(columns)))
 #define TANGENT_ROOM(n, columns) (TANGENT_N(n, columns)*(13 + TANGENT_N(n, columns)))
 
@@ -214,6 +217,65 @@ static inline int tangent_gradient(const gvi_points *x, void *user)
     return tangent_points(x, (tangent_part *)user + 1);
 }
 
+/* M := L D L', n*n, its lower triangle; and M^-1 z.                             */
+static inline int tangent_factor(int n, gvi_real *M)
+{
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < i; ++j)
+            for (int k = 0; k < j; ++k) M[i*n + j] -= M[i*n + k]*M[j*n + k];        // L D so far
+        for (int j = 0; j < i; ++j) {
+            const gvi_real l = M[i*n + j]/M[j*n + j];
+            M[i*n + i] -= l*M[i*n + j];
+            M[i*n + j] = l;
+        }
+        if (!(M[i*n + i] > 0 || M[i*n + i] < 0)) return 0;
+    }
+    return 1;
+}
+
+static inline void tangent_divide(int n, const gvi_real *M, gvi_real *z)
+{
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < i; ++j) z[i] -= M[i*n + j]*z[j];
+    for (int i = 0; i < n; ++i) z[i] /= M[i*n + i];
+    for (int i = n; i-- > 0; )
+        for (int j = 0; j < i; ++j) z[j] -= M[i*n + j]*z[i];
+}
+
+/* mass.velocity of all blocks where the scene has none, point by point.         */
+static inline int tangent_solve(const gvi_points *x, void *user)
+{
+    const tangent *T = ((const tangent_part *)user)->scene;
+    const int n = T->plain.n, R = x->stride;
+    gvi_real *q = T->room, *v = q + n, *unit = v + n, *none = unit + n, *z = none + n, *M = z + 16*n + 2*x->n, *B = M + n*n;
+    for (int k = 0; k < x->count; ++k) {
+        const gvi_points at = { .n = n, .count = 1, .stride = 1, .t = x->t + k, .q = q, .mass = M };
+        gvi_points y = { .n = n, .count = 1, .stride = 1, .t = x->t + k, .q = q, .v = v };
+        for (int i = 0; i < n; ++i) q[i] = x->q[i*R + k], v[i] = x->p[i*R + k], unit[i] = none[i] = 0;
+        for (int i = 0; i < n*n; ++i) M[i] = B[i] = 0;
+        if (T->plain.mass.points(&at, T->plain.mass.user) || !tangent_factor(n, M)) return 1;
+        tangent_divide(n, M, v);
+        for (int i = 0; i < n; ++i) x->velocity[i*R + k] = v[i];
+
+        // row j of B: the gradient's derivative by v_j
+        for (int j = 0; j < n; ++j) {
+            const gvi_points d = { .n = n, .count = 1, .stride = 1, .t = y.t, .q = none, .v = unit, .f = B + j*n };
+            unit[j] = 1;
+            if (T->gradient(&y, &d, -1, T->plain.mass.user)) return 1;
+            unit[j] = 0;
+        }
+        for (int block = n; block < x->n; block += n) {
+            for (int j = 0; j < n; ++j) {
+                z[j] = x->p[(block + j)*R + k];
+                for (int i = 0; i < n; ++i) z[j] -= B[j*n + i]*x->q[(block + i)*R + k];
+            }
+            tangent_divide(n, M, z);
+            for (int i = 0; i < n; ++i) x->velocity[(block + i)*R + k] = z[i];
+        }
+    }
+    return 0;
+}
+
 /* mass.points has to be given, and is not called where mass.velocity is.       */
 static inline int tangent_no_matrix(const gvi_points *x, void *user) { return (void)x, (void)user, 1; }
 
@@ -223,13 +285,13 @@ static inline gvi_status tangent_scene(tangent *T)
     const gvi_desc *plain = &T->plain;
     const gvi_mass *mass = &plain->mass;
     const int moving = mass->kind == GVI_MASS_POSITION || mass->kind == GVI_MASS_NONE, n = plain->n;
-    const int dense = mass->kind == GVI_MASS_DENSE;
+    const int dense = mass->kind == GVI_MASS_DENSE, solves = mass->kind == GVI_MASS_POSITION && !mass->velocity;
     T->columns = T->directions + T->parameters + (T->by_h != 0);
     const size_t N = TANGENT_N(n, T->columns), start = 20*(size_t)n + 2*N;
     if (n < 1 || T->columns < 1 || T->directions < 0 || T->parameters < 0 || !T->room) return GVI_E_ARGUMENT;
     if (plain->effect_count < 0 || plain->effect_count > GVI_EFFECTS) return GVI_E_ARGUMENT;
     if (T->by_h && !(T->h > 0 || T->h < 0)) return GVI_E_ARGUMENT;
-    if (T->room_length < start + (dense ? N*N : N)) return GVI_E_MEMORY;
+    if (T->room_length < start + (dense ? N*N : solves ? 2*(size_t)n*(size_t)n : N)) return GVI_E_MEMORY;
 
     T->desc = *plain;
     T->desc.n = (int)N;
@@ -243,14 +305,15 @@ static inline gvi_status tangent_scene(tangent *T)
     }
     if (moving) {
         tangent_part *part = T->part + GVI_EFFECTS;      // velocity, then gradient
-        if (!mass->velocity || (plain->formulation != GVI_AUTO && plain->formulation != GVI_MOMENTA))
+        if ((!mass->velocity && !solves) || (plain->formulation != GVI_AUTO && plain->formulation != GVI_MOMENTA))
             return GVI_E_FORMULATION;
-        if (!T->velocity || (mass->kind == GVI_MASS_POSITION && (!T->gradient || !mass->gradient)))
+        if (solves ? !mass->points : !T->velocity) return GVI_E_ARGUMENT;
+        if (mass->kind == GVI_MASS_POSITION && (!T->gradient || !mass->gradient))
             return GVI_E_ARGUMENT;
         T->desc.formulation = GVI_MOMENTA;
         part[0] = (tangent_part){ T, mass->velocity, NULL, T->velocity, mass->user };
         part[1] = (tangent_part){ T, mass->gradient, NULL, T->gradient, mass->user };
-        T->desc.mass = (gvi_mass){ .kind = mass->kind, .velocity = tangent_velocity, .user = part };
+        T->desc.mass = (gvi_mass){ .kind = mass->kind, .velocity = solves ? tangent_solve : tangent_velocity, .user = part };
         if (mass->kind == GVI_MASS_POSITION) {
             T->desc.mass.points = tangent_no_matrix;
             T->desc.mass.gradient = tangent_gradient;

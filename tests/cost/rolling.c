@@ -12,19 +12,18 @@
 
      rolling                                                                                               */
 #define GVI_STATIC
-#define GVI_IMPLEMENTATION
-#include "gvi.h"
-#include <math.h>
-#include <stdio.h>
+#define main lesson_43
+#include "43_coin.c"
+#undef main
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include "coefficients.h"
 
-static const double T = 10, g = 9.81;
+static const double T = 10;
 
 /* x, y, yaw, tilt, spin, and f, t, n */
-#define SLOPE(name, type, SIN, COS)                                                             \
+#define RATE(name, type, SIN, COS)                                                             \
     static inline void name(const type *y, type *dy)                                            \
     {                                                                                           \
         const type s = SIN(y[3]), c = COS(y[3]), S = SIN(y[2]), C = COS(y[2]), f = y[5], t = y[6], n = y[7]; \
@@ -37,8 +36,8 @@ static const double T = 10, g = 9.81;
         dy[6] = (f*f*s*c/4 - (type)1.5*n*f*s - (type)9.81L*c)/(type)1.25;                       \
         dy[7] = f*t*s/(type)1.5;                                                                \
     }
-SLOPE(slope, double, sin, cos)
-SLOPE(exact_slope, long double, sinl, cosl)
+RATE(rate, double, sin, cos)
+RATE(exact_rate, long double, sinl, cosl)
 
 #define DOP853(name, type, at)                                                                  \
     static void name(int steps, type *y, const type (*a)[12], const type *b)                    \
@@ -56,20 +55,20 @@ SLOPE(exact_slope, long double, sinl, cosl)
                 for (int l = 0; l < 8; ++l) y[l] += h*b[j]*K[j][l];                             \
         }                                                                                       \
     }
-DOP853(dop853, double, slope)
-DOP853(exact_dop853, long double, exact_slope)
+DOP853(dop853, double, rate)
+DOP853(exact_dop853, long double, exact_rate)
 
 static void midpoint(int steps, double *y)
 {
     const double h = T/steps;
     double d[8];
-    slope(y, d);
+    rate(y, d);
     for (int k = 0; k < steps; ++k) {
         for (int j = 0; j < 50; ++j) {
             double x[8], was[8], change = 0;
             memcpy(was, d, sizeof was);
             for (int i = 0; i < 8; ++i) x[i] = y[i] + h/2*d[i];
-            slope(x, d);
+            rate(x, d);
             for (int i = 0; i < 8; ++i) change = fmax(change, fabs(d[i] - was[i]));
             if (h*change < 1e-15) break;
         }
@@ -77,37 +76,7 @@ static void midpoint(int steps, double *y)
     }
 }
 
-/* ---- gvi.h ---- */
-
-GVI_EACH(mass, 5, mass)
-{
-    const double c = cos(x->q[3]), s = sin(x->q[3]);
-    x->mass[0] = x->mass[6] = 1;
-    x->mass[12] = s*s/4 + c*c/2;
-    x->mass[18] = 0.25 + c*c;
-    x->mass[22] = c/2;
-    x->mass[24] = 0.5;
-}
-
-GVI_EACH(gradient, 5, v, f)
-{
-    const double c = cos(x->q[3]), s = sin(x->q[3]), *v = x->v;
-    x->f[3] += -c*s*v[3]*v[3] + v[2]*v[2]*s*c/4 - (v[4] + c*v[2])*s*v[2]/2;
-}
-
-GVI_EACH(weight, 5, f, value)
-{
-    x->f[3] -= g*cos(x->q[3]);
-    x->value[0] += g*sin(x->q[3]);
-}
-
-GVI_EACH(rolls, 5, rows(2))
-{
-    const double cf = cos(x->q[2]), sf = sin(x->q[2]), c = cos(x->q[3]), s = sin(x->q[3]);
-    double *A = x->jacobian, *B = A + 5;
-    A[0] = 1, A[2] = c*cf, A[3] = -s*sf, A[4] = cf;
-    B[1] = 1, B[2] = c*sf, B[3] = s*cf, B[4] = sf;
-}
+/* ---- gvi.h: mass, gradient, weight and rows of examples/43_coin.c ---- */
 
 static int by_gvi(int degree, int steps, double *y)
 {
@@ -116,10 +85,10 @@ static int by_gvi(int degree, int steps, double *y)
                                  { .kind = GVI_NONHOLONOMIC, .points = rolls, .rows = 2 } };
     const gvi_desc desc = { .n = 5, .degree = degree, .effects = scene, .effect_count = 2,
                             .rule = { .kind = degree == 1 ? GVI_LOBATTO : GVI_GAUSS },
-                            .mass = { .kind = GVI_MASS_POSITION, .points = mass, .gradient = gradient } };
+                            .mass = { .kind = GVI_MASS_POSITION, .points = mass, .gradient = slope } };
     double d[8], v[5];
     gvi_stepper st;
-    slope(y, d);
+    rate(y, d);
     for (int i = 0; i < 5; ++i) v[i] = d[i];
     if (gvi_init(&st, &desc, memory, sizeof memory) || gvi_start(&st, 0, y, v)) return 0;
     for (int k = 0; k < steps && st.status == GVI_OK; ++k) gvi_step(&st, T/steps);

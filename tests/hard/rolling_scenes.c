@@ -1,8 +1,9 @@
 /* rolling_scenes.c - random rolling scenes against an index-1 reference, and what users get wrong
 
    Up to six coordinates, three rows A(q) v + a(t) = 0 of sines, masses, springs, a coupling and friction, degree 6, five steps
-   of 1/20.  The reference eliminates the multipliers from M v' = F + A' lambda, d/dt (A v + a) = 0, in long double, by
-   DOP853's formula, with 20 steps or more.  What is asserted: a run that is ok is right, and rows that fit are not refused.  One
+   of 1/20.  One scene in three has M(q) = D + (1 + sin(b.q)/2) u u', one in three a term of L that bends the way and one of the
+   fourth power of v, one in two of those with two rows or three gives some of them as g(q) = 0.  The reference eliminates the
+   multipliers from M v' = F + A' lambda, d/dt (A v + a) = 0, in long double, by DOP853's formula, with 20 steps or more.  What is asserted: a run that is ok is right, and rows that fit are not refused.  One
    scene in two has a trap:
 
      repeated      one row is a combination of the others: left out, the same motion
@@ -26,10 +27,18 @@ static const char *const names[] = { "plain", "repeated", "empty", "slip", "inte
 typedef struct row { double c[N], b[N], w[N], turn[N], drive, beat; } row;
 typedef struct scene {
     trap   kind;
-    int    n, m, formulation;
+    int    n, m, held, formulation;           // the first `held` of the m rows are those of a g
     row    rows[M];
-    double mix[M], mass[N], spring[N], couple, friction, instant;
+    double mix[M], mass[N], spring[N], couple, friction, instant, level[M];
+    int    turning, bending;                  // M(q); terms of L
+    double u[N], b[N], along[N], about[N], fourth;
 } scene;
+
+/* The rolling rows' effect: after the force and the rows of g */
+static int rolling_effect(const scene *s) { return 1 + (s->held > 0); }
+
+/* Is row k that of a g, c.q - b cos(w.q + 1)? */
+static int integrable(const scene *s, int k) { return s->kind == INTEGRABLE || k < s->held; }
 
 /* A and its derivative along v, a and its derivative, of the rows that count, in the reference's type */
 typedef long double exact;
@@ -40,7 +49,7 @@ static void make_rows(const scene *s, exact t, const exact *q, const exact *v, e
         exact along = 0, moving = 0;
         for (int i = 0; i < s->n; ++i) along += r->w[i]*q[i], moving += r->w[i]*v[i];
         for (int i = 0; i < s->n; ++i) {
-            const exact b = s->kind == INTEGRABLE ? r->b[0]*r->w[i] : r->b[i], turn = s->kind == INTEGRABLE ? 1 : r->turn[i];
+            const exact b = integrable(s, k) ? r->b[0]*r->w[i] : r->b[i], turn = integrable(s, k) ? 1 : r->turn[i];
             A[k][i] = r->c[i] + b*sinl(along + turn);
             dA[k][i] = b*cosl(along + turn)*moving;
         }
@@ -49,11 +58,32 @@ static void make_rows(const scene *s, exact t, const exact *q, const exact *v, e
     }
 }
 
-static void push(const scene *s, const exact *q, const exact *v, exact *f)
+static exact dot(int n, const double *a, const exact *b)
 {
     exact sum = 0;
+    for (int i = 0; i < n; ++i) sum += a[i]*b[i];
+    return sum;
+}
+
+/* (d/dv)^2 of the kinetic energy and the terms, and what is left of Lagrange's equations without v' and multipliers */
+static void inertia(const scene *s, const exact *q, const exact *v, exact (*z)[N + M + 1])
+{
+    const exact w = s->turning ? 1 + sinl(dot(s->n, s->b, q))/2 : 0, speed = dot(s->n, s->along, v);
+    const exact fourth = s->bending ? 3*s->fourth*speed*speed : 0;
+    for (int i = 0; i < s->n; ++i)
+        for (int j = 0; j < s->n; ++j)
+            z[i][j] = (i == j)*(exact)s->mass[i] + w*s->u[i]*s->u[j] + fourth*s->along[i]*s->along[j];
+}
+
+static void push(const scene *s, const exact *q, const exact *v, exact *f)
+{
+    const exact slope = s->turning ? cosl(dot(s->n, s->b, q))/2 : 0, uv = dot(s->n, s->u, v), bv = dot(s->n, s->b, v);
+    const exact turn = s->bending ? cosl(dot(s->n, s->about, q)) : 0, kv = dot(s->n, s->along, v), xv = dot(s->n, s->about, v);
+    exact sum = 0;
     for (int i = 0; i < s->n; ++i) sum += q[i];
-    for (int i = 0; i < s->n; ++i) f[i] = -s->spring[i]*q[i] - s->couple*cosl(sum) - s->friction*v[i];
+    for (int i = 0; i < s->n; ++i)
+        f[i] = -s->spring[i]*q[i] - s->couple*cosl(sum) - s->friction*v[i]
+               + slope*uv*(uv*s->b[i]/2 - bv*s->u[i]) + turn*(kv*s->about[i] - xv*s->along[i]);
 }
 
 /* ---- the same for gvi.h ---- */
@@ -72,30 +102,103 @@ static int springs_and_coupling(const gvi_points *x, void *user)
     return 0;
 }
 
-/* Trap's row number m is made of the others */
+/* At point k, in the reference's type */
+static void take(const gvi_points *x, const double *from, int k, exact *to)
+{
+    for (int i = 0; i < x->n; ++i) to[i] = from[i*x->stride + k];
+}
+
+static int mass_at(const gvi_points *x, void *user)
+{
+    const scene *s = user;
+    for (int k = 0; k < x->count; ++k) {
+        exact q[N];
+        take(x, x->q, k, q);
+        const double w = 1 + sin((double)dot(s->n, s->b, q))/2;
+        for (int i = 0; i < s->n; ++i)
+            for (int j = 0; j <= i; ++j)
+                x->mass[(i*s->n + j)*x->stride + k] = (i == j)*s->mass[i] + w*s->u[i]*s->u[j];
+    }
+    return 0;
+}
+
+static int mass_slope(const gvi_points *x, void *user)
+{
+    const scene *s = user;
+    for (int k = 0; k < x->count; ++k) {
+        exact q[N], v[N];
+        take(x, x->q, k, q);
+        take(x, x->v, k, v);
+        const double uv = (double)dot(s->n, s->u, v), slope = cos((double)dot(s->n, s->b, q))/2;
+        for (int i = 0; i < s->n; ++i) x->f[i*x->stride + k] += slope*uv*uv*s->b[i]/2;
+    }
+    return 0;
+}
+
+/* L = sin(about.q) (along.v) + fourth (along.v)^4/4 */
+static int terms_at(const gvi_points *x, void *user)
+{
+    const scene *s = user;
+    for (int k = 0; k < x->count; ++k) {
+        exact q[N], v[N];
+        take(x, x->q, k, q);
+        take(x, x->v, k, v);
+        const double angle = (double)dot(s->n, s->about, q), speed = (double)dot(s->n, s->along, v);
+        for (int i = 0; i < s->n; ++i) {
+            const int j = i*x->stride + k;
+            if (x->f) x->f[j] += cos(angle)*speed*s->about[i];
+            if (x->dldv) x->dldv[j] += (sin(angle) + s->fourth*speed*speed*speed)*s->along[i];
+        }
+    }
+    return 0;
+}
+
+/* The rows of g; level makes them 0 where the scene starts */
+static double held_value(const scene *s, const exact *q, int b)
+{
+    const row *r = s->rows + b;
+    return (double)(dot(s->n, r->c, q) - r->b[0]*cosl(dot(s->n, r->w, q) + 1) - s->level[b]);
+}
+
+static int held_at(const gvi_points *x, void *user)
+{
+    const scene *s = user;
+    for (int k = 0; k < x->count; ++k) {
+        exact q[N], v[N] = { 0 }, A[M][N], dA[M][N], a[M], da[M];
+        take(x, x->q, k, q);
+        make_rows(s, x->t[k], q, v, A, dA, a, da);
+        for (int b = 0; b < s->held; ++b) {
+            x->g[b*x->stride + k] = held_value(s, q, b);
+            for (int i = 0; i < x->n; ++i) x->jacobian[(b*x->n + i)*x->stride + k] = (double)A[b][i];
+        }
+    }
+    return 0;
+}
+
+/* The rolling rows; the trap's, behind them, is made of all the others */
 static int rows_at(const gvi_points *x, void *user)
 {
     const scene *s = user;
     const int R = x->stride, extra = s->kind == REPEATED || s->kind == QUARREL || s->kind == AWAKE;
     for (int k = 0; k < x->count; ++k) {
         exact q[N], v[N] = { 0 }, A[M][N], dA[M][N], a[M], da[M];
-        for (int i = 0; i < x->n; ++i) q[i] = x->q[i*R + k];
+        take(x, x->q, k, q);
         make_rows(s, x->t[k], q, v, A, dA, a, da);
         const double factor = s->kind == VANISHING ? x->t[k] - s->instant : 1;
-        for (int b = 0; b < s->m; ++b) {
-            for (int i = 0; i < x->n; ++i)
-                x->jacobian[(b*x->n + i)*R + k] = s->kind == EMPTY && b == 0 ? 0 : factor*(double)A[b][i];
-            x->rate[b*R + k] = s->kind == EMPTY && b == 0 ? 0 : factor*(double)a[b];
+        for (int b = s->held; b < s->m; ++b) {
+            const double part = s->kind == EMPTY && b == s->held ? 0 : factor;
+            for (int i = 0; i < x->n; ++i) x->jacobian[((b - s->held)*x->n + i)*R + k] = part*(double)A[b][i];
+            x->rate[(b - s->held)*R + k] = part*(double)a[b];
         }
         for (int i = 0; i < x->n && extra; ++i) {
             double sum = s->kind == AWAKE && i == 0 ? x->t[k] : 0;
             for (int b = 0; b < s->m; ++b) sum += s->mix[b]*(double)A[b][i];
-            x->jacobian[(s->m*x->n + i)*R + k] = sum;
+            x->jacobian[((s->m - s->held)*x->n + i)*R + k] = sum;
         }
         if (extra) {
             double sum = s->kind == QUARREL ? x->t[k]/4 : 0;
             for (int b = 0; b < s->m; ++b) sum += s->mix[b]*(double)a[b];
-            x->rate[s->m*R + k] = sum;
+            x->rate[(s->m - s->held)*R + k] = sum;
         }
     }
     return 0;
@@ -128,11 +231,12 @@ static exact solve(int n, exact (*a)[N + M + 1])
 }
 
 /* (M, -A'; A, 0) (x, lambda) = (f, b) */
-static exact saddle(const scene *s, exact (*A)[N], const exact *f, const exact *b, exact *x)
+static exact saddle(const scene *s, const exact *y, exact (*A)[N], const exact *f, const exact *b, exact *x)
 {
     exact z[N + M][N + M + 1] = { { 0 } };
     const int n = s->n, m = s->m;
-    for (int i = 0; i < n; ++i) z[i][i] = s->mass[i], z[i][n + m] = f[i];
+    inertia(s, y, y + N, z);
+    for (int i = 0; i < n; ++i) z[i][n + m] = f[i];
     for (int k = 0; k < m; ++k) {
         for (int i = 0; i < n; ++i) z[i][n + k] = -A[k][i], z[n + k][i] = A[k][i];
         z[n + k][n + m] = b[k];
@@ -152,7 +256,7 @@ static exact rate_of(const scene *s, exact t, const exact *y, exact *dy)
         for (int i = 0; i < s->n; ++i) b[k] -= dA[k][i]*y[N + i];
     }
     for (int i = 0; i < s->n; ++i) dy[i] = y[N + i];
-    return saddle(s, A, f, b, dy + N);
+    return saddle(s, y, A, f, b, dy + N);
 }
 
 static const runge_kutta *const dop853 = &dop853_table;
@@ -188,7 +292,10 @@ static exact reference(const scene *s, exact T, exact *y)
         memcpy(fine, y, sizeof fine);
         const exact grade = integrate(s, T, steps, fine);
         off = 0;
-        for (int i = 0; i < 2*N; ++i) off = fmaxl(off, fabsl(fine[i] - coarse[i])/(1 + fabsl(fine[i])));
+        for (int i = 0; i < 2*N; ++i) {
+            const exact apart = fabsl(fine[i] - coarse[i])/(1 + fabsl(fine[i]));
+            if (!(apart <= off) && off >= 0) off = apart;             // keeps NaN
+        }
         memcpy(coarse, fine, sizeof coarse);
         if (off < 1e-14L) return memcpy(y, fine, sizeof fine), grade;
     }
@@ -199,7 +306,7 @@ static exact reference(const scene *s, exact T, exact *y)
 
 static void invent(scene *s, exact *y)
 {
-    exact A[M][N], dA[M][N], a[M], da[M], f[N], b[M];
+    exact A[M][N], dA[M][N], a[M], da[M], f[N] = { 0 }, b[M];
     memset(s, 0, sizeof *s);
     s->n = 2 + (int)((uniform() + 1)*2.5);
     s->m = 1 + (int)((uniform() + 1)*(s->n - 1 < M ? s->n - 1 : M)/2);
@@ -217,19 +324,32 @@ static void invent(scene *s, exact *y)
     s->couple = uniform();
     s->friction = uniform() < 0 ? 0 : uniform() + 1;
     s->instant = 0.125 + 0.1*uniform();
+    s->held = s->m > 1 && s->kind != INTEGRABLE && uniform() < 0 ? 1 + (int)((uniform() + 1)*(s->m - 1)/2) : 0;
+    for (int k = 0; k < s->held; ++k) s->rows[k].drive = 0;
+    s->turning = uniform() < -1/3.0;
+    s->bending = uniform() < -1/3.0;
+    s->fourth = (uniform() + 1)/8;
+    if (s->formulation == GVI_MOMENTA) s->fourth = 0;             // v comes from p by a fixed point there, which need not contract
+    for (int i = 0; i < s->n; ++i) s->u[i] = uniform(), s->b[i] = 2*uniform(), s->along[i] = uniform(), s->about[i] = 2*uniform();
 
     memset(y, 0, 2*N*sizeof *y);
     for (int i = 0; i < s->n; ++i) y[i] = uniform(), y[N + i] = 2*uniform();
     make_rows(s, 0, y, y + N, A, dA, a, da);
     for (int k = 0; k < s->m; ++k) b[k] = -a[k];
-    for (int i = 0; i < s->n; ++i) f[i] = s->mass[i]*y[N + i];
-    if (s->kind != SLIP) saddle(s, A, f, b, y + N);               // the nearest velocity that does not slip
+    exact z[N + M][N + M + 1] = { { 0 } };
+    inertia(s, y, y + N, z);
+    for (int i = 0; i < s->n; ++i)
+        for (int j = 0; j < s->n; ++j) f[i] += z[i][j]*y[N + j];
+    if (s->kind != SLIP) saddle(s, y, A, f, b, y + N);            // the nearest velocity that does not slip
+    for (int k = 0; k < s->held; ++k) s->level[k] = held_value(s, y, k);
 }
 
-/* does row a of the start slip by more than rounding? */
-static int slips(const scene *s, const exact *y, int k)
+/* does that row of an effect slip by more than rounding at the start? */
+static int slips(const scene *s, const exact *y, int effect, int k)
 {
     exact A[M][N], dA[M][N], a[M], da[M], sum;
+    if (effect != 1 && effect != rolling_effect(s)) return 0;
+    if (effect == rolling_effect(s)) k += s->held;
     make_rows(s, 0, y, y + N, A, dA, a, da);
     sum = a[k];
     for (int i = 0; i < s->n; ++i) sum += A[k][i]*y[N + i];
@@ -243,10 +363,16 @@ static int made_of_others(const scene *s) { return s->kind == REPEATED || s->kin
 static gvi_status run(const scene *s, const exact *y, int steps, gvi_stepper *st, double *v)
 {
     static real memory[20000];
-    const gvi_effect effects[] = { { .kind = GVI_FORCE, .points = springs_and_coupling, .user = (void *)s },
-                                   { .kind = GVI_NONHOLONOMIC, .points = rows_at, .user = (void *)s, .rows = s->m + made_of_others(s) } };
-    const gvi_desc desc = { .n = s->n, .degree = 6, .effects = effects, .effect_count = 2,
-                            .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = s->mass },
+    gvi_effect effects[4] = { { .kind = GVI_FORCE, .points = springs_and_coupling, .user = (void *)s } };
+    int count = 1;
+    if (s->held) effects[count++] = (gvi_effect){ .kind = GVI_CONSTRAINT, .points = held_at, .user = (void *)s, .rows = s->held };
+    effects[count++] = (gvi_effect){ .kind = GVI_NONHOLONOMIC, .points = rows_at, .user = (void *)s,
+                                     .rows = s->m - s->held + made_of_others(s) };
+    if (s->bending) effects[count++] = (gvi_effect){ .kind = GVI_LAGRANGIAN, .points = terms_at, .user = (void *)s };
+    const gvi_mass fixed = { .kind = GVI_MASS_DIAGONAL, .matrix = s->mass };
+    const gvi_mass turning = { .kind = GVI_MASS_POSITION, .points = mass_at, .gradient = mass_slope, .user = (void *)s };
+    const gvi_desc desc = { .n = s->n, .degree = 6, .effects = effects, .effect_count = count,
+                            .mass = s->turning ? turning : fixed,
                             .formulation = (gvi_formulation)s->formulation };
     double q[N];
     for (int i = 0; i < s->n; ++i) q[i] = (double)y[i], v[i] = (double)y[N + i];
@@ -267,13 +393,14 @@ static double error_of(const scene *s, const gvi_stepper *st, const double *v, c
     return error*(double)grade/size;
 }
 
-/* Is the status that of the trap, and its fault?  Rows that fit may be refused for a long step, not for one of a 64th */
+/* Is the status that of the trap, and its fault?  For a long step it may be another refusal, not for one of a 64th */
 static int rightly(const scene *s, const exact *y, gvi_stepper *st, gvi_status status)
 {
     double v[N];
-    if (s->kind == EMPTY) return status == GVI_E_SINGULAR && st->fault.effect == 1;
-    if (s->kind == SLIP) return status == GVI_E_CONSTRAINT && st->fault.effect == 1 && slips(s, y, st->fault.coordinate);
-    if (s->kind == QUARREL) return status == GVI_E_CONSTRAINT && st->fault.effect == 1;
+    if (s->kind == EMPTY) return status == GVI_E_SINGULAR && st->fault.effect == rolling_effect(s);
+    if (s->kind == SLIP) return status == GVI_E_CONSTRAINT && slips(s, y, st->fault.effect, st->fault.coordinate);
+    if (s->kind == QUARREL && status != GVI_E_CONSTRAINT) status = run(s, y, 64*STEPS, st, v);
+    if (s->kind == QUARREL) return status == GVI_E_CONSTRAINT && st->fault.effect == rolling_effect(s);
     if (s->kind == AWAKE || s->kind == VANISHING) return 1;
     return run(s, y, 64*STEPS, st, v) == GVI_OK;
 }
