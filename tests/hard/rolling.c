@@ -4,9 +4,10 @@
    position stay at rounding.  Two things move the energy E:
 
      rounding    forces and velocities at a point are wrong by EPS of themselves (a dozen roundings of EPS/sqrt(12)), a step's
-                 work by s = EPS sqrt(2 sum_i (h v_i F_i)^2 sum_j b_j^2).  That of N steps walks, were these errors independent:
-                 4 s sqrt(N) at most (four standard deviations), and 4 EPS E for reading.  An angle x that grows (the disc's
-                 yaw) is rounded itself, by EPS x/4, and with it what reads it.  With 16 iterations a step that is all
+                 work by s = EPS sqrt(2 sum_i (h v_i)^2 (F_i^2 + C_i^2) sum_j b_j^2), C what the constraints pull.  That of N
+                 steps walks, were these errors independent: 4 s sqrt(N) at most (four standard deviations), and 4 EPS E for
+                 reading.  An angle x that grows (the disc's yaw) is rounded itself, by EPS x/4, and with it what reads it.
+                 With 16 iterations a step that is all
      iterations  end by default where they stagnate.  What that leaves is measured in one step of 16 against the same step with
                  16 iterations; its mean, within four standard errors, has to be what the energy drifts by
 
@@ -196,8 +197,8 @@ static double apart(gvi_stepper *a, const gvi_stepper *b)
     return (double)sum;
 }
 
-/* The square of a step's work's rounding: 2 sum_i (h v_i F_i)^2 sum_j b_j^2, F the largest of the step, h b the weights;
-   and the push, sum_i h F_i */
+/* The square of a step's work's rounding: 2 sum_i (h v_i)^2 (F_i^2 + C_i^2) sum_j b_j^2, F the largest force of the step, C that
+   of constraint, whose work is 0 but for rounding, h b the weights; and the push, sum_i h F_i */
 static double rounding_of(gvi_stepper *st, double *push)
 {
     real v[8];
@@ -206,9 +207,10 @@ static double rounding_of(gvi_stepper *st, double *push)
     must(gvi_velocity(st, v));
     for (int j = 0; j < st->r; ++j) weights += pow((double)st->in.sized.hb[j], 2);
     for (int i = 0; i < st->n; ++i) {
-        double F = 0;
+        double F = 0, C = 0;
         for (int j = 0; j < st->r; ++j) F = fmax(F, fabs((double)st->in.work.F[i*st->in.R + j]));
-        sum += pow((double)v[i]*F, 2);
+        for (int j = 0; j < st->s; ++j) C = fmax(C, fabs((double)st->in.con.force[i*st->in.R + j]));
+        sum += pow((double)v[i], 2)*(F*F + C*C);
         *push += fabs((double)st->h)*F;
     }
     return 2*sum*weights;
