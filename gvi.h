@@ -124,7 +124,8 @@
               coordinate; no tolerance or test of the library depends on them.
               Magnitudes below 1e-307 (float: 1e-31) count as 0.
    rounding   Needs round to nearest and subnormals; -ffast-math and its parts are
-              refused, or have no effect.  q, p and t carry compensation terms,
+              refused, or have no effect (of clang's, do not use -fno-honor-nans,
+              -fno-honor-infinities, -freciprocal-math: no macro shows them).  q, p and t carry compensation terms,
               so 1e9 steps of t + h are as exact as one.  Compiled with
               -ffp-contract=off, it gives the same bits on every IEEE machine but x87, if
               the callbacks give the same bits and products stay between 1e-290
@@ -6578,12 +6579,12 @@ static gvi_real gvi__entry(const gvi_stepper *st, int S, int j, const gvi_real *
 }
 
 /* Row i depends: c G = 0, c the row of L^-1.  The row to leave out is the one with the largest part
-   in that: without one whose part is 0, as it is at some angles of a linkage, the others would still
-   depend.  Of equal ones the last.                                                            */
+   in that: without one whose part is 0, as at some angles of a linkage, the others still depend.
+   The last, unless another's is twice as large: rows that change often cost digits.           */
 GVI__COLD int gvi__spare(const gvi_stepper *st, int S, int i, gvi_real entry, const gvi_real *A)
 {
     const int m = st->in.con.m;
-    gvi_real *c = st->in.con.y, most = entry*(1 + GVI_SQRT(GVI__EPS));
+    gvi_real *c = st->in.con.y, most = 4*entry;
     int spare = i;
     c[i] = 1;
     for (int l = i; l-- > 0; ) {
@@ -6859,10 +6860,13 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
 // the same, and A in the first iteration
 GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from)
 {
-    const gvi_status status = gvi__evaluate_at_D(st, from);
-    if (status != GVI_OK || st->in.con.made > 1) return status;
-    return gvi__factor_constraints(st, st->in.con.C, st->s, st->in.con.G, st->in.con.gram,
-                                   st->in.con.drops);
+    const struct gvi__private *in = &st->in;
+    gvi_status status = gvi__evaluate_at_D(st, from);
+    if (status != GVI_OK || in->con.made > 1) return status;
+    status = gvi__factor_constraints(st, in->con.C, st->s, in->con.G, in->con.gram, in->con.drops);
+    for (int a = 0; a < in->con.m; ++a)            // the guess is that of the rows of the last step
+        if (in->con.drops[a] > 0) gvi__zero((size_t)in->R, in->con.force + (st->n + a)*in->R);
+    return status;
 }
 
 // V of a trial: the P that the new F and the old lambda make
