@@ -124,13 +124,12 @@
               coordinate; no tolerance or test of the library depends on them.
               Magnitudes below 1e-307 (float: 1e-31) count as 0.
    rounding   Needs round to nearest and subnormals; -ffast-math and its parts are
-              refused, or have no effect (of clang's, do not use -fno-honor-nans,
-              -fno-honor-infinities, -freciprocal-math: no macro shows them).  q, p and t carry compensation terms,
-              so 1e9 steps of t + h are as exact as one.  Compiled with
-              -ffp-contract=off, it gives the same bits on every IEEE machine but x87, if
-              the callbacks give the same bits and products stay between 1e-290
-              and 1e299 (float: 1e-30 and 1e34); beyond, their low words depend
-              on FMA.
+              refused, or have no effect (of clang's, do not use -fno-honor-nans, -fno-honor-
+              infinities, -freciprocal-math: no macro shows them). q, p and t carry
+              compensation terms, so 1e9 steps of t + h are as exact as one. Compiled with
+              -ffp-contract=off, it gives the same bits on every IEEE machine but x87, if the
+              callbacks give the same bits and products stay between 1e-290 and 1e299 (float:
+              1e-30 and 1e34); beyond, their low words depend on FMA.
    work       Bounded: docs/embedded.md has the bound, but not that of constraints.
    converged  A step ends when every coordinate has converged, each measured by
               its own size.  Where large forces cancel, a coordinate may never
