@@ -124,12 +124,12 @@
               coordinate; no tolerance or test of the library depends on them.
               Magnitudes below 1e-307 (float: 1e-31) count as 0.
    rounding   Needs round to nearest and subnormals; -ffast-math and its parts are
-              refused, or have no effect.  q, p and t carry compensation terms,
-              so 1e9 steps of t + h are as exact as one.  Compiled with
-              -ffp-contract=off, it gives the same bits on every IEEE machine but x87, if
-              the callbacks give the same bits and products stay between 1e-290
-              and 1e299 (float: 1e-30 and 1e34); beyond, their low words depend
-              on FMA.
+              refused, or have no effect (of clang's, do not use -fno-honor-nans, -fno-honor-
+              infinities, -freciprocal-math: no macro shows them). q, p and t carry
+              compensation terms, so 1e9 steps of t + h are as exact as one. Compiled with
+              -ffp-contract=off, it gives the same bits on every IEEE machine but x87, if the
+              callbacks give the same bits and products stay between 1e-290 and 1e299 (float:
+              1e-30 and 1e34); beyond, their low words depend on FMA.
    work       Bounded: docs/embedded.md has the bound, but not that of constraints.
    converged  A step ends when every coordinate has converged, each measured by
               its own size.  Where large forces cancel, a coordinate may never
@@ -245,8 +245,8 @@
    The step ends on g = 0 and on the hidden constraint G v + dg/dt = 0, G = dg/dq.  q and p are of
    order min(2s, u) for u >= 2s - 2, symplectic on the constraint manifold; degree 1 with Lobatto's
    two points is RATTLE.  Second derivatives are not needed.  Zeros in G cost nothing: list rows
-   that share coordinates near each other.  A row that depends on those before it and
-   agrees with them is left out, step by step: its multiplier is 0.  The rank must not change
+   that share coordinates near each other.  Of rows that depend on each other and
+   agree, one is left out, step by step: its multiplier is 0.  The rank must not change
    within a step, as it does at a change point, where the motion branches.  Newton has lambda among
    its unknowns, s (n + m) of them for m constraints; the fixed points solve for it as they go.
 
@@ -6569,25 +6569,45 @@ static gvi_real gvi__row_dot(const gvi_stepper *st, const gvi_real *G, int a, co
     return sum;
 }
 
-/* What the rounding of row j adds to that of row i's pivot: l_ij^2 G_j M^-1 G_j'                */
-static gvi_real gvi__share(const gvi_stepper *st, int S, int i, int j, const gvi_real *A)
+// G_j M^-1 G_j' of a row that is kept; 0 of one that is left out
+static gvi_real gvi__entry(const gvi_stepper *st, int S, int j, const gvi_real *A)
 {
     const int m = st->in.con.m;
-    const gvi_real l = A[(i*m + j)*S], inverse = A[(j*m + j)*S];
-    if (!gvi__nonzero(inverse)) return 0;
-    gvi_real entry = 1/inverse;
+    if (!gvi__nonzero(A[(j*m + j)*S])) return 0;
+    gvi_real entry = 1/A[(j*m + j)*S];
     for (int k = (int)st->in.con.first[j]; k < j; ++k) entry += A[(j*m + k)*S]*A[(k*m + j)*S];
-    return l*l*entry;
+    return entry;
+}
+
+/* Row i depends: c G = 0, c the row of L^-1.  The row to leave out is the one with the largest part
+   in that: without one whose part is 0, as at some angles of a linkage, the others still depend.
+   The last, unless another's is twice as large: rows that change often cost digits.           */
+GVI__COLD int gvi__spare(const gvi_stepper *st, int S, int i, gvi_real entry, const gvi_real *A)
+{
+    const int m = st->in.con.m;
+    gvi_real *c = st->in.con.y, most = 4*entry;
+    int spare = i;
+    c[i] = 1;
+    for (int l = i; l-- > 0; ) {
+        c[l] = 0;
+        for (int j = l + 1; j <= i; ++j)
+            if ((int)st->in.con.first[j] <= l) c[l] -= A[(j*m + l)*S]*c[j];
+        const gvi_real part = c[l]*c[l]*gvi__entry(st, S, l, A);
+        if (!(part > most)) continue;
+        most = part;
+        spare = l;
+    }
+    return spare;
 }
 
 /* A := L D L' of G M^-1 G' in its envelope, L below the diagonal, 1/D on it and D L' above it; M(q)
    is that of the stage values, one for one, or of the one point.  A pivot of 64 m roundings, its
    own and those of the rows that it is made of, says that the row depends on those before it.  At
-   the first point it is then left out: 1/D and its L are 0, and so is its multiplier; drops[a] is
-   what the diagonal entry was, or 0 for a row that is kept.  At the other points the same rows are
-   left out, and the rest has to have full rank.                                               */
-static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, const gvi_real *G,
-                                          gvi_real *A, gvi_real *drops)
+   one point it, or the spare one of these, is then left out: 1/D and its L are 0, and so is its
+   multiplier; drops[a] is what the diagonal entry was, or 0 for a row that is kept.  At more points
+   the same rows are left out, and the rest has to have full rank.                             */
+static gvi_status gvi__factor_rows(gvi_stepper *st, int S, int count, const gvi_real *G,
+                                   gvi_real *A, gvi_real *drops)
 {
     const struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, full = gvi__full_mass(in);
@@ -6595,8 +6615,10 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
     gvi_real *W = in->con.W;
 
     gvi__zero((size_t)(n*S), W);
+    gvi__zero((size_t)(count == 1 ? m : 0), drops);
     for (int i = 0; i < m; ++i) {
         const int from = (int)first[i];
+        int spare = i;
         gvi_real *d = A + (i*m + i)*S;
         // W = - M^-1 G_i'
         for (int j = gvi__column(st, i, 0); j < n; j = gvi__column(st, i, j + 1)) {
@@ -6625,19 +6647,33 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
                 A[(i*m + j)*S + k] = l;
                 rest -= l*u;
             }
-            if (GVI_ABS(rest) < GVI_SQRT(GVI__EPS)*was)
-                for (int j = from; j < i; ++j) size += gvi__share(st, S, i, j, A + k);
+            for (int j = from; j < i && GVI_ABS(rest) < was/16; ++j) {
+                const gvi_real l = A[(i*m + j)*S + k];
+                size += l*l*gvi__entry(st, S, j, A + k);
+            }
             const int depends = !(GVI_ABS(rest) > least*size);
             if (!(was <= GVI__MAX) || !gvi__finite(rest))
                 return gvi__report_status(st, GVI_E_NON_FINITE);
-            if (k == 0) drops[i] = depends ? was : 0;
+            if (count == 1 && depends && !(drops[i] > 0)) spare = gvi__spare(st, S, i, was, A);
+            if (count == 1 && (depends || drops[i] > 0)) drops[spare] = was;
+            if (spare < i) break;
             d[k] = drops[i] > 0 ? 0 : 1/rest;
             if (!gvi__finite(d[k]) || (depends && !(drops[i] > 0)))
                 return gvi__report_row(st, GVI_E_SINGULAR, i, k);
         }
+        if (spare < i) i = spare - 1;              // again from there, without it
     }
 
     return GVI_OK;
+}
+
+// the first of the points says which rows are left out
+static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, const gvi_real *G,
+                                          gvi_real *A, gvi_real *drops)
+{
+    const gvi_status status = gvi__factor_rows(st, S, 1, G, A, drops);
+    if (status != GVI_OK || count == 1) return status;
+    return gvi__factor_rows(st, S, count, G, A, drops);
 }
 
 // rows z [m][R] := A^-1 z, at points or at one; 0 for rows that are left out
@@ -6825,10 +6861,13 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
 // the same, and A in the first iteration
 GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from)
 {
-    const gvi_status status = gvi__evaluate_at_D(st, from);
-    if (status != GVI_OK || st->in.con.made > 1) return status;
-    return gvi__factor_constraints(st, st->in.con.C, st->s, st->in.con.G, st->in.con.gram,
-                                   st->in.con.drops);
+    const struct gvi__private *in = &st->in;
+    gvi_status status = gvi__evaluate_at_D(st, from);
+    if (status != GVI_OK || in->con.made > 1) return status;
+    status = gvi__factor_constraints(st, in->con.C, st->s, in->con.G, in->con.gram, in->con.drops);
+    for (int a = 0; a < in->con.m; ++a)            // the guess is that of the rows of the last step
+        if (in->con.drops[a] > 0) gvi__zero((size_t)in->R, in->con.force + (st->n + a)*in->R);
+    return status;
 }
 
 // V of a trial: the P that the new F and the old lambda make
@@ -6935,7 +6974,7 @@ GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate
     gvi__zero((size_t)(rows*R), in->con.force);
     if (!extrapolate || in->con.kept < 2) return;
     for (int i = 0; i < rows; ++i)
-        for (int e = 0; e < st->s; ++e)
+        for (int e = 0; e < st->s && (i < st->n || !(in->con.drops[i - st->n] > 0)); ++e)
             in->con.force[i*R + e] = gvi__point_sum(st->s, R, in->con.E + e,
                                                    in->con.last + i*in->con.C + 1);
 }
@@ -7181,7 +7220,7 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     const gvi_real t = from->t + (from->t_low + in->dt), far = GVI__HELD*GVI__EPS;
     gvi_real *q = in->answer, *p = q + n, *v = p + n, *r = in->con.g, *z = in->con.rho,
              *drops = in->con.drops + m, energy = 0, size = 0, before = GVI__MAX;
-    int redundant = 0;
+    int redundant = 0, more = 0, row = 0;
 
     for (int i = 0; i < n; ++i) {
         // rounded as the commit will: A v is to be 0 there
@@ -7196,16 +7235,19 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     if (start) GVI__LOOK(st, 0);
     for (int a = 0; a < m; ++a) {
         redundant |= drops[a] > 0;
-        if (!start && status == GVI_OK && (drops[a] > 0) != (in->con.drops[a] > 0))
-            status = gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
+        more += (drops[a] > 0) - (in->con.drops[a] > 0);
+        if ((drops[a] > 0) != (in->con.drops[a] > 0)) row = a;
     }
+
+    if (!start && status == GVI_OK && more != 0)
+        status = gvi__report_row(st, GVI_E_SINGULAR, row, GVI_FAULT_NONE);
 
     if (status == GVI_OK) status = gvi__check_rank(st, !start);
     if ((start || redundant) && status == GVI_OK) status = gvi__fulfilled(st, t, q, p, v, start);
     if (status != GVI_OK) return status;
     gvi__zero((size_t)m, in->con.y);
     for (int pass = 0; pass < passes; ++pass) {
-        int row = 0;
+        row = 0;
         size = 0;
         for (int i = 0; i < n; ++i) p[i] = from->p[i] + (in->step.p[i] + in->step.p_low[i]);
         status = gvi__velocity(st, t, q, p, v);

@@ -239,7 +239,8 @@ TEST(a_velocity_that_does_not_converge_is_none)
         for (int e = 1; e < 40; ++e) {
             real a = parts[i], q = 1, v = 1;
             const gvi_effect scene = { .kind = GVI_LAGRANGIAN, .points = heavier, .user = &a };
-            const gvi_desc desc = { .n = 1, .degree = 3, .effects = &scene, .effect_count = 1, .formulation = GVI_MOMENTA };
+            const gvi_desc desc = { .n = 1, .degree = 3, .effects = &scene, .effect_count = 1, .formulation = GVI_MOMENTA,
+                                    .max_iterations = DIG + 16 };
             gvi_stepper st = new_motion(&desc, 0, &q, &v);
             const real h = ldexp((real)1, -2*e), p = st.p[0];
             if (gvi_step(&st, h) != GVI_OK) continue;
@@ -248,7 +249,8 @@ TEST(a_velocity_that_does_not_converge_is_none)
             assert_close((st.q[0] - q) + st.q_low[0], -2*sin(w*h/2)*sin(w*h/2) + sin(w*h)/w, sqrt(EPS)*h + pow(w*h, (real)7));
             assert_close((st.p[0] - p) + st.p_low[0], -sin(w*h)/w + p*(cos(w*h) - 1), sqrt(EPS)*h + pow(w*h, (real)7));
         }
-    assert_true(ok > 2*39 - 8);                    /* the two halves contract */
+    // two halves gain a bit in each iteration, .9 and .95 a sixth of one or less, the others none
+    assert_int_equal(ok, 2*39);
 }
 
 /* The same with a clock, which Newton's method does not take */

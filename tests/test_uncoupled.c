@@ -339,6 +339,42 @@ TEST(each_of_any_size_moves_as_alone)
     }
 }
 
+/* 0: driven by the time, and a weak spring: its first change is its whole motion, its next ones are nothing.
+   1: a spring about 1, whose changes are the last places of 1 */
+typedef struct hidden { real weak, k; } hidden;
+
+static int driven_and_still(const gvi_points *x, void *user)
+{
+    const hidden *a = (const hidden *)user;
+    for (int k = 0; k < x->count; ++k) {
+        x->f[k] += 100*(real)sin((double)(7*x->t[k])) - a->weak*x->q[k];
+        x->f[x->stride + k] -= a->k*(x->q[x->stride + k] - 1);
+    }
+    return 0;
+}
+
+/* The change of all falls from that of 0 to that of 1: no ratio of the two is a contraction.  Of degree 1 a step is
+   the midpoint rule: x1 (1 + a) = x0 (1 - a) + h p0, a = k h^2/4 */
+TEST(a_row_that_falls_fast_does_not_end_the_iteration_of_another)
+{
+    const real h = (real)0.25L;
+    for (int weak = 0; weak < 20; ++weak)
+    for (int spring = 1; spring < 13; ++spring)
+    for (int far = 1; far < DIG/2; ++far) {
+        hidden z = { (real)ldexp(1, -weak), (real)spring };
+        const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = driven_and_still, .user = &z } };
+        const gvi_desc d = { .n = 2, .degree = 1, .effects = scene, .effect_count = 1, .formulation = GVI_POSITIONS };
+        const real off = (real)ldexp((double)EPS, far), q[] = { 0, 1 + off }, v[] = { 0, off };
+        gvi_stepper st = new_motion(&d, 0, q, v);
+        for (int step = 0; step < 6; ++step) {
+            const long double x = (st.q[1] - 1) + (long double)st.q_low[1], p = st.p[1] + (long double)st.p_low[1],
+                              a = z.k*h*h/4.0L, x1 = ((1 - a)*x + h*p)/(1 + a);
+            assert_ok(gvi_step(&st, h));
+            assert_close((st.q[1] - 1) + (long double)st.q_low[1], x1, 4*EPS);
+        }
+    }
+}
+
 /* a hundred thousand, 1/h = 5 and 1/h = 2 of their periods among them */
 TEST(a_hundred_thousand_move_as_alone)
 {

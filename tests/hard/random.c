@@ -8,7 +8,8 @@
      dial        any dial: is an accepted step as accurate as the dial says, to a factor of 10?
 
    What rounding may do is measured by the magnitudes of the terms (equations), or by what the motion makes of a change of
-   1e-9 at its start (motion, dial).
+   1e-9 at its start (motion, dial).  The factors are a choice, not derived: an iteration may end at 32 eps of the largest
+   amplitude, and a row is one of many sums; 7,600 scenes in double stayed below .8 of them.
 
      random [SECONDS [FIRST]]       random -1 NUMBER: one scene, with all its steps                         */
 #include "random.h"
