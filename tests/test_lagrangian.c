@@ -369,7 +369,7 @@ TEST(refusals_say_why)
 LAGRANGIAN(alone, 2) { return v[0]*v[0] + v[1]*v[1] - cos(q[0])*cos(q[1]); }
 LAGRANGIAN(through_mass, 2) { return (2 + cos(q[1]))*v[0]*v[0] + v[1]*v[1] - cos(q[0]); }
 LAGRANGIAN(through_v, 2) { return v[0]*v[0] + v[1]*v[1] + q[0]*q[0]*v[1]; }
-LAGRANGIAN(through_v4, 2) { return v[0]*v[0] + v[1]*v[1] + v[0]*v[0]*v[1]*v[1] - cos(q[0]); }
+LAGRANGIAN(through_v4, 2) { return v[0]*v[0] + v[1]*v[1] + v[0]*v[0]*v[0]*v[0] - cos(q[0]); }
 
 TEST(another_n_in_desc_is_refused)
 {
