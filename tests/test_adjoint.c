@@ -386,6 +386,12 @@ TEST(scenes_without_an_adjoint_are_refused)
     assert_ok(adjoint_keep(&A, &ad));
     assert_ok(adjoint_keep(&A, &ad));
     assert_status(adjoint_keep(&A, &ad), GVI_E_MEMORY);
+    for (A.every = -1; A.every <= 0; ++A.every) assert_status(adjoint_keep(&A, &ad), GVI_E_ARGUMENT);
+
+    A.plain.rule = (gvi_rule){ .kind = GVI_OWN, .points = 3 };                 /* nodes are missing */
+    assert_ok(adjoint_scene(&A));
+    assert_status(gvi_init(&ad, &A.scene.desc, NULL, 0), GVI_E_ARGUMENT);
+    A.plain.rule = (gvi_rule){ 0 };
 
     A.plain.effects = with_clock, A.plain.effect_count = 2;
     A.product[1] = tangent_constant;

@@ -261,6 +261,22 @@ TEST(the_work_of_a_force_is_that_of_its_place)
 }
 
 /* M v = p for the v of p, and the gradient is what differences of v'Mv/2 say; |e| far from 1. */
+TEST(a_scene_with_another_number_of_coordinates_is_refused)
+{
+    static const body rock = { 1, { 1, 2, 3 } };
+    const bodies turns = { &stone, 1 }, moves = { &rock, 1 }, none = { NULL, 0 }, *const all[] = { &turns, &moves, &none };
+    static const int wrong[] = { 7, 4, 4 };
+    const real q[7] = { 1, 0, 0, 1, 0, 0, 0 }, v[7] = { 0 };
+    assert_int_equal(body_coordinates(&turns), 4);
+    assert_int_equal(body_coordinates(&moves), 7);
+    for (int i = 0; i < 2*COUNT(all); ++i) {
+        gvi_desc desc = { .n = wrong[i/2], .mass = body_mass(all[i/2]) };
+        if (i % 2) desc.mass.velocity = NULL;
+        gvi_stepper st = new_stepper(&desc);
+        assert_status(gvi_start(&st, 0, q, v), GVI_E_CALLBACK);
+    }
+}
+
 TEST(the_mass_is_consistent)
 {
     const gvi_mass mass = body_mass(&two);

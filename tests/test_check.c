@@ -32,7 +32,8 @@ static void build_own(int n, gvi_effect effect, gvi_mass mass)
 {
     static const double q[] = { 0.7, -1.3 }, v[] = { 0.4, 1.9 };
     memset(&made, 0, sizeof made);
-    made.desc = (gvi_desc){ .n = n, .effects = made.effects, .effect_count = effect.points != NULL, .mass = mass };
+    const int count = effect.points != NULL;
+    made.desc = (gvi_desc){ .n = n, .effects = count ? made.effects : NULL, .effect_count = count, .mass = mass };
     made.effects[0] = effect;
     for (int i = 0; i < n && i < 2; ++i) made.q[i] = q[i], made.v[i] = v[i];
 }
@@ -657,6 +658,32 @@ TEST(rows_of_velocities_have_to_be_numbers)
     assert_true(check_scene(&desc, 0, q, v, &all) > 0);
     assert_int_equal(seen[0].what, CHECK_REFUSED);
     edge = 1;
+}
+
+/* What gvi_init refuses is not looked at: its callbacks or rows may not be there. */
+TEST(scenes_that_cannot_be_are_refused)
+{
+    const gvi_effect good = { .kind = GVI_POTENTIAL, .points = each, .value = each };
+    gvi_effect bad[] = { good, good, good };
+    const gvi_mass no_matrix = { .kind = GVI_MASS_DIAGONAL }, no_callback = { .kind = GVI_MASS_POSITION };
+    bad[0].points = NULL;
+    bad[1].kind = (gvi_kind)77;
+    bad[2] = (gvi_effect){ .kind = GVI_CONSTRAINT, .points = each, .rows = 200 };
+    for (int i = 0; i < COUNT(bad); ++i) {
+        build_own(2, good, (gvi_mass){ 0 });
+        made.effects[0] = bad[i];
+        assert_int_equal(check(), GVI_E_ARGUMENT);
+        assert_int_equal(report.count, 0);
+    }
+    build_own(2, good, no_matrix);
+    assert_int_equal(check(), GVI_E_ARGUMENT);
+    build_own(2, good, no_callback);
+    assert_int_equal(check(), GVI_E_ARGUMENT);
+    build_own(2, good, (gvi_mass){ 0 });
+    made.desc.effects = NULL;
+    assert_int_equal(check(), GVI_E_ARGUMENT);
+    made.desc.n = -1;
+    assert_int_equal(check(), GVI_E_ARGUMENT);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -76,6 +76,44 @@ AT_POINTS(slower_than_light)                      // v from p
     return 0;
 }
 
+AT_POINTS(constant_force)
+{
+    FOR_EACH(x, a) if (x->f) x->f[a] += ((const gvi_real *)user)[a/x->stride];
+    return 0;
+}
+
+AT_POINTS(quartics)                               // L = sum v^4/4
+{
+    FOR_EACH(x, a) {
+        const gvi_real v = x->v[a];
+        if (x->value) x->value[a % x->stride] += v*v*v*v/4;
+        if (x->dldv) x->dldv[a] += v*v*v;
+    }
+    return 0;
+}
+
+/* p = v + v^3, so p is along the line as v is.  The push across it takes p off: by as much as makes inertia there half as
+   large again, twice, and more */
+TEST(a_step_ends_along_the_line_to_rounding_however_much_inertia_changes)
+{
+    const gvi_real slow = (gvi_real)0.125L;
+    int steps = 0;
+    for (gvi_real f = 1; f < 6; f *= (gvi_real)1.03L) {
+        gvi_real push[2] = { f, -f };
+        const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = constant_force, .user = push },
+                                     { .kind = GVI_LAGRANGIAN, .points = quartics, .value = quartics },
+                                     { .kind = GVI_CONSTRAINT, .points = circle, .rows = 1, .user = push } };
+        const gvi_desc desc = { .n = 2, .degree = 2, .effects = scene, .effect_count = 3 };
+        const gvi_real q[2] = { 1, 1 }, v[2] = { slow, slow };
+        gvi_stepper st;
+        assert_ok(start(&st, &desc, q, v));
+        if (gvi_step(&st, 1) != GVI_OK) continue;
+        ++steps;
+        assert_close(st.p[0], st.p[1], 16*EPS*f);
+    }
+    assert_true(steps > 10);
+}
+
 /* stiff springs: constrained to a line, the step is Gauss's for one oscillator, whose map is the diagonal Pade
    approximation of e^(i z), z = h omega, of modulus 1 and argument 2 arg P(i z), P of degree s                 ---- */
 

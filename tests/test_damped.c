@@ -143,4 +143,27 @@ TEST(a_step_that_fails_leaves_those_before)
     assert_status(st.status, GVI_E_CALLBACK);
 }
 
+static int until;
+static void breaks(real h, const real *q, real *p, void *user)
+{
+    linear(h, q, p, user);
+    if (until-- == 0) p[0] = (real)NAN;
+}
+
+/* once: half of it for the end of the second step is there */
+TEST(friction_that_fails_leaves_the_steps_before)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = fails } };
+    const gvi_desc desc = { .n = 1, .rule = drift_kick_drift, .effects = scene, .effect_count = 1 };
+    int n = 1;
+    limit = 1000;
+    gvi_stepper st = new_motion(&desc, 0, (real[]){ 1 }, (real[]){ 2 });
+    assert_ok(damped_steps(&st, R(0.25), 2, linear, &n, work));
+    const real q = st.q[0], p = st.p[0];
+    assert_ok(gvi_start(&st, 0, (real[]){ 1 }, (real[]){ 2 }));
+    until = 2;
+    assert_status(damped_steps(&st, R(0.25), 5, breaks, &n, work), GVI_E_ARGUMENT);
+    assert_true(st.q[0] == q && st.p[0] == p && st.t == R(0.5));
+}
+
 RUN_TESTS(NULL, NULL)

@@ -286,6 +286,8 @@ TEST(output_at_given_times_is_the_motion)
         }
         assert_int_equal((int)st->counters.steps, 10);
         assert_status(output_at(st, (real)way*R(0.75), 0, q, NULL, NULL), GVI_E_STATE);      /* long past */
+        assert_status(output_at(st, (real)way*R(0.75), (real)way*(real)INFINITY, q, NULL, NULL), GVI_E_ARGUMENT);
+        assert_true(output_at(cosine(8, 0), 1, (real)NAN, q, NULL, NULL) < 0);
     }
 }
 

@@ -5,6 +5,7 @@
 #define GVI_REAL double
 #define PAD 16
 #include "gvi_test.h"
+#include "tools/ensemble.h"
 #include "fuzz/fuzz_scene.c"
 #include <limits.h>
 
@@ -43,6 +44,21 @@ TEST(sizes_that_no_machine_has_are_refused)
         if (size == 0) assert_true(gvi_init(&st, &desc, little, sizeof little) != GVI_OK);
         else assert_true((double)size >= least);
         if (size > sizeof little) assert_status(gvi_init(&st, &desc, little, sizeof little), GVI_E_MEMORY);
+    }
+}
+
+static void count_runs(int k, void *result, void *user) { *(int *)result = k + 1; ++*(int *)user; }
+
+TEST(an_ensemble_ends_whatever_its_chunks)
+{
+    static const int chunks[] = { -1, 0, 1, 3, 100 };
+    for (int i = 0; i < COUNT(chunks); ++i) {
+        int result[10] = { 0 }, runs = 0;
+        ensemble_run(-1, chunks[i], sizeof result[0], count_runs, &runs, result);
+        assert_int_equal(runs, 0);
+        ensemble_run(COUNT(result), chunks[i], sizeof result[0], count_runs, &runs, result);
+        assert_int_equal(runs, COUNT(result));
+        for (int k = 0; k < COUNT(result); ++k) assert_int_equal(result[k], k + 1);
     }
 }
 

@@ -366,6 +366,31 @@ TEST(refusals_say_why)
     assert_refused(&large, some_q, some_v, "n is 33, there is room for 32: define LAGRANGIAN_MOST before lagrangian.h");
 }
 
+LAGRANGIAN(alone, 2) { return v[0]*v[0] + v[1]*v[1] - cos(q[0])*cos(q[1]); }
+LAGRANGIAN(through_mass, 2) { return (2 + cos(q[1]))*v[0]*v[0] + v[1]*v[1] - cos(q[0]); }
+LAGRANGIAN(through_v, 2) { return v[0]*v[0] + v[1]*v[1] + q[0]*q[0]*v[1]; }
+LAGRANGIAN(through_v4, 2) { return v[0]*v[0] + v[1]*v[1] + v[0]*v[0]*v[0]*v[0] - cos(q[0]); }
+
+TEST(another_n_in_desc_is_refused)
+{
+    const lagrangian_function all[] = { alone, through_mass, through_v, through_v4 };
+    for (int i = 0; i < 4; ++i)
+        for (int n = 1; n <= 3; ++n) {
+            lagrangian L;
+            assert_null(lagrangian_init(&L, all[i], NULL, 0, (gvi_real[]){ 1, 1 }, (gvi_real[]){ 1, 1 }));
+            const gvi_effect scene[] = { lagrangian_effect(&L) };
+            const gvi_desc desc = { .n = n, .mass = lagrangian_mass(&L), .effects = scene, .effect_count = 1 };
+            const gvi_real q[] = { 1, 1, 1 };
+            gvi_real memory[20000];
+            gvi_stepper st;
+            gvi_status status = gvi_init(&st, &desc, memory, sizeof memory);
+            if (status == GVI_E_SINGULAR && n == 3) continue;                   /* a constant M shows it */
+            if (status == GVI_OK) status = gvi_start(&st, 0, q, q);
+            if (status == GVI_OK) status = gvi_step(&st, R(0.125));
+            assert_status(status, n == 2 ? GVI_OK : GVI_E_CALLBACK);
+        }
+}
+
 /* -- functions, against their derivatives */
 
 LAGRANGIAN(functions, 8)

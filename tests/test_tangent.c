@@ -327,7 +327,8 @@ TEST(keplers_derivative_has_order_2s)
 TEST(scenes_without_a_tangent_are_refused)
 {
     static const gvi_effect with_clock[] = { { .kind = GVI_POTENTIAL, .points = heiles, .value = heiles },
-                                             { .kind = GVI_CLOCK, .points = clock_rate } };
+                                             { .kind = GVI_CLOCK, .points = clock_rate } },
+                            with_row[] = { { .kind = GVI_CONSTRAINT, .points = heiles, .rows = 1 } };
     gvi_stepper st;
     real energy;
     tangent T = { .plain = { .n = N, .effects = with_clock, .effect_count = 2 },
@@ -339,6 +340,11 @@ TEST(scenes_without_a_tangent_are_refused)
     st = new_stepper(&T.desc);
     assert_ok(tangent_start(&T, &st, 0, q0, p0, NULL, NULL));
     assert_status(gvi_energy(&st, &energy), GVI_E_VALUE);
+    T.plain.effects = with_row;
+    assert_status(tangent_scene(&T), GVI_E_FORMULATION);
+    T.plain.effects = NULL;
+    assert_status(tangent_scene(&T), GVI_E_ARGUMENT);
+    T.plain.effects = with_clock;
     T.room_length = 20*N + 3*5*N - 1;
     assert_status(tangent_scene(&T), GVI_E_MEMORY);
     T.room_length = COUNT(room);
@@ -463,6 +469,12 @@ static int wrong_product(const gvi_points *x, const gvi_points *d, int parameter
     return 0;
 }
 
+static int nan_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
+{
+    for (int k = 0; k < x->count; ++k) d->f[k] += (real)NAN;
+    return 0;
+}
+
 /* Products that are right agree with differences; a term that is off by 2 % is found. */
 TEST(the_check_finds_what_is_off_by_2_percent)
 {
@@ -477,6 +489,11 @@ TEST(the_check_finds_what_is_off_by_2_percent)
     T.product[0] = wrong_product;
     assert_ok(tangent_scene(&T));
     assert_between(0.005L, tangent_check(&T, 0, q0, v, dq, dv, &part), 0.1L);
+    assert_int_equal(part, 0);
+    T.product[0] = nan_product;
+    assert_ok(tangent_scene(&T));
+    part = -1;
+    assert_true(isnan(tangent_check(&T, 0, q0, v, dq, dv, &part)));
     assert_int_equal(part, 0);
     made(&T, &scenes[COUNT(scenes) - 2], 1, 0, 0);
     T.gradient = tangent_constant;

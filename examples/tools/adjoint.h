@@ -35,7 +35,7 @@
    By the dial: record st.h of each step of gvi_advance, set scene.desc.resolution = 0 before gvi_init,
    and go back over these steps.
 
-   Refused (GVI_E_FORMULATION): a clock, rules that are not symmetric; as in tangent.h,
+   Refused (GVI_E_FORMULATION): constraints, a clock, rules that are not symmetric,
    M(q) without mass.velocity.  Kicks have gradients by the state alone.
    Source: the doubled Lagrangian L(q + e l) - L(q) + e l.f, to first order in e.   */
 #ifndef ADJOINT_H
@@ -61,7 +61,7 @@ typedef struct adjoint {
     size_t               room_length;
     gvi_real            *kept;                  /* [kept_length] for adjoint_keep, or NULL */
     size_t               kept_length;
-    int                  every;                 /* steps between states kept        */
+    int                  every;                 /* steps between states kept, from 1 */
 
     tangent scene;                              /* from here on made; scene.desc is what */
     long    step;                               /* gvi_init wants                   */
@@ -98,6 +98,7 @@ static inline int adjoint_running(const gvi_points *x, void *user)
 static inline int adjoint_symmetric(const gvi_rule *rule)
 {
     if (rule->kind != GVI_OWN && rule->kind != GVI_KICKS) return 1;
+    if (!rule->nodes || !rule->weights) return 1;                        // gvi_init refuses it
     for (int i = 0; i < rule->points; ++i) {
         const int j = rule->points - 1 - i;
         const gvi_real c = rule->nodes[i] + rule->nodes[j] - 1, b = rule->weights[i] - rule->weights[j];
@@ -114,6 +115,7 @@ static inline gvi_status adjoint_scene(adjoint *A)
     *T = (tangent){ .plain = A->plain, .gradient = A->gradient, .velocity = A->velocity, .directions = 1,
                     .room = A->room, .room_length = A->room_length };
     for (int i = 0; i < GVI_EFFECTS; ++i) T->product[i] = A->product[i];
+    // tangent.h's own M^-1 leaves f_v' l out
     if (A->plain.mass.kind == GVI_MASS_POSITION && !A->plain.mass.velocity) return GVI_E_FORMULATION;
     const gvi_status status = tangent_scene(T);
     if (status) return status;
@@ -137,9 +139,11 @@ static inline gvi_status adjoint_keep(adjoint *A, const gvi_stepper *st)
 {
     const int n = A->plain.n;
     const size_t size = 2*(size_t)n + 1;
+    if (A->every < 1) return GVI_E_ARGUMENT;
     if (++A->step % A->every) return GVI_OK;
-    gvi_real *z = A->kept + (size_t)(A->step/A->every)*size;
-    if (z + size > A->kept + A->kept_length) return GVI_E_MEMORY;
+    const size_t at = (size_t)(A->step/A->every)*size;
+    if (at + size > A->kept_length) return GVI_E_MEMORY;
+    gvi_real *z = A->kept + at;
     for (int i = 0; i < n; ++i) z[i] = st->q[i], z[n + i] = st->p[i];
     z[2*n] = st->t;
     return GVI_OK;

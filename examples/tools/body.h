@@ -176,10 +176,19 @@ static inline void body_slope(const body *b, const gvi_real *e, const gvi_real *
     for (int i = 0; i < 4; ++i) f[i] = (Ja*v[i] - 2*g[i] - 2*(twice + Ja*a)*e[i])/size;
 }
 
+/* n of the scene; the mass refuses another (GVI_E_CALLBACK).                        */
+static inline int body_coordinates(const bodies *all)
+{
+    int n = 0;
+    for (int j = 0; j < all->count; ++j) n += all->body[j].mass > 0 ? 7 : 4;
+    return n;
+}
+
 static inline int body_mass_points(const gvi_points *x, void *user)
 {
     const bodies *all = (const bodies *)user;
     const int n = x->n;
+    if (n != body_coordinates(all)) return 1;
     for (int i = 0; i < n*n; ++i)
         for (int k = 0; k < x->count; ++k) x->mass[i*x->stride + k] = 0;
     for (int j = 0, row = 0; j < all->count; row += 4, ++j) {
@@ -210,6 +219,7 @@ static inline int body_mass_points(const gvi_points *x, void *user)
 static inline int body_mass_rows(const gvi_points *x, void *user)
 {
     const bodies *all = (const bodies *)user;
+    if (x->n != body_coordinates(all)) return 1;
     for (int j = 0, row = 0; j < all->count; row += 4, ++j) {
         const body *b = all->body + j;
         for (int c = 0; b->mass > 0 && c < 3; ++c, ++row)

@@ -951,13 +951,29 @@ static inline gvi_real *check_memory(struct check_run *c)
     return memory;
 }
 
-/* Returns how many findings there are; -1: no memory.                          */
+/* May the scene be looked at?  Not what gvi_init refuses, whatever the steps are to be.          */
+static inline gvi_status check_refused(const gvi_desc *desc)
+{
+    gvi_desc plain = { .n = desc->n, .degree = 1, .effects = desc->effects, .effect_count = desc->effect_count, .mass = desc->mass };
+    gvi_stepper st;
+    if (plain.mass.matrix) plain.mass.kind = GVI_MASS_UNIT, plain.mass.matrix = NULL;     // is looked at here
+    const size_t size = gvi_size(&plain);
+    void *memory = malloc(size + 1);
+    const gvi_status status = memory ? gvi_init(&st, &plain, memory, size) : GVI_E_MEMORY;
+    free(memory);
+    return status;
+}
+
+/* Returns how many findings there are; negative: no memory, or what gvi_init refuses the scene with. */
 static inline int check_scene(const gvi_desc *desc, gvi_real t, const gvi_real *q, const gvi_real *v,
                               check_report *report)
 {
     struct check_run c = { .desc = desc, .report = report, .n = desc->n };
+    report->count = 0;
+    const gvi_status refused = check_refused(desc);
+    if (refused) return refused;
     gvi_real *memory = check_memory(&c);
-    if (!memory) return -1;
+    if (!memory) return GVI_E_MEMORY;
     c.eps = nextafter((gvi_real)1, (gvi_real)2) - 1;
     c.tolerance = pow(c.eps, (gvi_real)0.575);
     report->count = report->unchecked = 0;

@@ -47,8 +47,8 @@ static inline gvi_status damped_steps(gvi_stepper *st, gvi_real h, int count, da
     for (int k = 0; k < count; ++k) {
         const gvi_real t = start + (gvi_real)k*h;
         for (int i = 0; i < st->n; ++i) before[i] = st->p[i];
-        if (damped_start(st, t, k ? h : h/2, friction, user, work)) return st->status;
-        const gvi_status status = gvi_step(st, h);
+        gvi_status status = damped_start(st, t, k ? h : h/2, friction, user, work);
+        if (status == GVI_OK) status = gvi_step(st, h);
         if (status == GVI_OK) continue;
         if (k) friction(h/2, st->q, before, user);
         gvi_start_momentum(st, t, st->q, before);

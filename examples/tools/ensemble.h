@@ -14,7 +14,7 @@
    Chunks    Runs differ in length, so nobody has a fixed share.  A counter on rank 0 says
              which chunk of consecutive k comes next; each rank draws from it, rank 0 too.
              The threads of a rank share a chunk, so it holds several times as many runs
-             as a rank has threads, and a hundredth of all at most.
+             as a rank has threads, and a hundredth of all at most, or 1.
    Waiting   A rank asks for its next chunk before it begins the one that it has: where
              rank 0 answers between its own chunks only, nobody stands idle.
    Gathering A result is any plain structure without pointers.  Each is zero but on the
@@ -122,6 +122,8 @@ static inline void ensemble_run(int count, int chunk, size_t size, ensemble_fn *
 {
     const time_t begin = time(NULL);
     time_t shown = begin;
+    if (chunk < 1) chunk = 1;
+    if (count < 0) count = 0;
     ensemble_counter c = { .chunk = chunk };
     int first;
     memset(results, 0, (size_t)count*size);

@@ -180,6 +180,7 @@ static inline int event_next(event *e, gvi_stepper *st)
    For a list of times, in the order of the steps.                                */
 static inline gvi_status output_at(gvi_stepper *st, gvi_real h, gvi_real t, gvi_real *q, gvi_real *v, gvi_real *p)
 {
+    if (!(t - t >= 0)) return gvi_state_at(st, t, q, v, p);          // says that it is not finite
     if (event_same(st->h, 0) && event_same(st->t, t)) {              // at the start
         for (int i = 0; i < st->n; ++i) {
             if (q) q[i] = st->q[i];

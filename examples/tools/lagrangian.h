@@ -36,7 +36,8 @@
    the entries of M that vary.  Of the first kind, with many coordinates, -dV/dq by hand saves most.
 
    Refused, with a sentence: derivatives lost to a `double`; L not finite at the start; no kinetic
-   energy in a coordinate; n above LAGRANGIAN_MOST (32; define it before the header).
+   energy in a coordinate; n above LAGRANGIAN_MOST (32; define it before the header).  By the
+   callbacks (GVI_E_CALLBACK): a desc.n that is another.
 
    H(t,q,p) likewise, for momenta: a vortex, a spin, populations; or a mass that you know in p.
 
@@ -670,6 +671,7 @@ static inline int lagrangian_potential(const gvi_points *x, void *user)
 {
     lagrangian *L = (lagrangian *)user;
     lagrangian_wanted a = lagrangian_want(L, x, NULL, -1);
+    if (x->n != L->function.n) return 1;
     if (x->f) lagrangian_rest(L, x);
     a.by_q = NULL;
     a.value = x->value;
@@ -683,6 +685,7 @@ static inline int lagrangian_term(const gvi_points *x, void *user)
     const lagrangian *L = (const lagrangian *)user;
     const int n = x->n, R = x->stride, linear = L->kind == LAGRANGIAN_LINEAR;
     lagrangian_wanted a = lagrangian_want(L, x, x->v, 1);
+    if (n != L->function.n) return 1;
     a.value = x->value;
     if (!linear) a.by_w = x->dldv;
     if (a.by_q || a.by_w || a.value) L->function.add(&a);
@@ -704,6 +707,7 @@ static inline int lagrangian_matrix(const gvi_points *x, void *user)
 {
     const lagrangian *L = (const lagrangian *)user;
     const int n = x->n, R = x->stride;
+    if (n != L->function.n) return 1;
     for (int j = 0; j < n; ++j) {
         lagrangian_wanted a = lagrangian_want(L, x, NULL, 1);
         a.one = a.first = j;
@@ -802,6 +806,7 @@ static inline int hamiltonian_velocity(const gvi_points *x, void *user)
 {
     hamiltonian *H = (hamiltonian *)user;
     lagrangian_wanted a = lagrangian_want(&H->look, x, x->p, 1);
+    if (x->n != H->function.n) return 1;
     a.by_q = NULL;
     a.by_w = x->velocity;
     memset(x->velocity, 0, (size_t)(x->n*x->stride)*sizeof *x->velocity);

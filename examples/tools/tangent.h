@@ -26,7 +26,7 @@
    derivative of the discrete action in the direction d.  Varying d gives the
    scene's own equations, varying q their derivative.
 
-   Refused: constraints (by gvi_init), a clock (GVI_E_FORMULATION), no mass
+   Refused: constraints, a clock (GVI_E_FORMULATION), no mass
    without mass.velocity, M(q) pinned to Newton's method (the same), an
    effect without its product (GVI_E_ARGUMENT).  gvi_energy of the larger scene
    says GVI_E_VALUE.  A wrong product cannot be seen by a step: tangent_check.
@@ -290,6 +290,7 @@ static inline gvi_status tangent_scene(tangent *T)
     const size_t N = TANGENT_N(n, T->columns), start = 20*(size_t)n + 2*N;
     if (n < 1 || T->columns < 1 || T->directions < 0 || T->parameters < 0 || !T->room) return GVI_E_ARGUMENT;
     if (plain->effect_count < 0 || plain->effect_count > GVI_EFFECTS) return GVI_E_ARGUMENT;
+    if (plain->effect_count > 0 && !plain->effects) return GVI_E_ARGUMENT;
     if (T->by_h && !(T->h > 0 || T->h < 0)) return GVI_E_ARGUMENT;
     if (T->room_length < start + (dense ? N*N : solves ? 2*(size_t)n*(size_t)n : N)) return GVI_E_MEMORY;
 
@@ -298,7 +299,7 @@ static inline gvi_status tangent_scene(tangent *T)
     T->desc.effects = T->effect;
     for (int i = 0; i < plain->effect_count; ++i) {
         const gvi_effect *e = &plain->effects[i];
-        if (e->kind == GVI_CLOCK) return GVI_E_FORMULATION;
+        if (e->kind >= GVI_CLOCK) return GVI_E_FORMULATION;            // or constraints
         if (!T->product[i] || !e->points == !e->point) return GVI_E_ARGUMENT;
         T->part[i] = (tangent_part){ T, e->points, e->point, T->product[i], e->user };
         T->effect[i] = (gvi_effect){ .kind = e->kind, .points = tangent_points, .user = &T->part[i] };
@@ -360,7 +361,7 @@ static inline void tangent_column(const tangent *T, const gvi_stepper *st, int j
 
 /* How far the products are from differences of their effects, of order 4, at one point: the
    largest |product - difference| over the larger of the two.  About eps^(4/5) where all is
-   right; the share that is wrong, where something is.  *part then says where: the number of
+   right; the share that is wrong, where something is; NaN, where something is not a number.  *part then says where: the number of
    the effect, GVI_EFFECTS for mass.velocity, GVI_EFFECTS + 1 for mass.gradient.  dq, dv [n]:
    the direction, of the size of the motion; for mass.velocity v, dv are p, dp.  -1: an effect
    refused.  Derivatives by parameters are not looked at.                      */
@@ -408,9 +409,9 @@ static inline gvi_real tangent_check(const tangent *T, gvi_real t, const gvi_rea
                 if (both[z] > large) large = both[z];
                 if (-both[z] > large) large = -both[z];
             }
-            if (!(e < off && -e < off)) off = e < 0 ? -e : e;
+            if (off >= 0 && !(e <= off && -e <= off)) off = e < 0 ? -e : e;        // NaN stays
         }
-        if (large > 0 && !(off/large <= far)) far = off/large, *part = i;
+        if (far >= 0 && !(off <= far*large)) far = off/large, *part = i;
     }
     return far;
 }

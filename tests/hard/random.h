@@ -444,16 +444,19 @@ static void step_rows(const step *a, const L *y, L *out, L *size, outcome *end)
     for (int i = 0; i < n; ++i) end->p[i] += impulse[i];
 }
 
-/* p1 += G' x such that G v + dg/dt = 0 */
+/* p1 += G' x such that G v + dg/dt = 0, by Newton's method: x is halved where G v + dg/dt would grow, as with v^4 */
 static void end_rates(const step *a, outcome *end)
 {
     const scene *z = a->z;
     const int n = z->n, m = z->holonomic;
-    for (int pass = 0; pass < 6 && m; ++pass) {
-        L v[N], H[N*N], g[2*M], G[2*M*N], rate[2*M], X[2*M*N], gram[4*M*M], slip[2*M];
-        velocity_of(z, a->t0 + a->h, end->q, end->p, v);
-        rows_at(z, a->t0 + a->h, end->q, g, G, rate);
-        slip_of(z, a->t0 + a->h, end->q, end->p, slip);
+    const L t = a->t0 + a->h;
+    L g[2*M], G[2*M*N], rate[2*M], slip[2*M];
+    rows_at(z, t, end->q, g, G, rate);
+    slip_of(z, t, end->q, end->p, slip);
+    for (int pass = 0; pass < 60 && m; ++pass) {
+        L v[N], p[N], H[N*N], X[2*M*N], gram[4*M*M], x[2*M], before = 0, now = 0, share = 1;
+        for (int c = 0; c < m; ++c) before = fmaxl(before, fabsl(x[c] = slip[c]));
+        velocity_of(z, t, end->q, end->p, v);
         inertia_at(z, end->q, v, H);
         memcpy(X, G, sizeof *X*(size_t)(m*n));
         solve(n, H, m, X);
@@ -461,12 +464,19 @@ static void end_rates(const step *a, outcome *end)
             gram[b] = 0;
             for (int i = 0; i < n; ++i) gram[b] += G[b/m*n + i]*X[b%m*n + i];
         }
-        solve(m, gram, 1, slip);
-        for (int c = 0; c < m; ++c)
-            for (int i = 0; i < n; ++i) {
-                end->p[i] -= G[c*n + i]*slip[c];
-                end->ps[i] += fabsl(G[c*n + i]*slip[c]);
-            }
+        solve(m, gram, 1, x);
+        for (int k = 0; k < 20; ++k, share /= 2) {
+            memcpy(p, end->p, sizeof p);
+            for (int c = 0; c < m; ++c)
+                for (int i = 0; i < n; ++i) p[i] -= share*G[c*n + i]*x[c];
+            slip_of(z, t, end->q, p, slip);
+            now = 0;
+            for (int c = 0; c < m; ++c) now = fmaxl(now, fabsl(slip[c]));
+            if (now < before) break;
+        }
+        if (!(now < before)) return;
+        for (int i = 0; i < n; ++i) end->ps[i] += fabsl(p[i] - end->p[i]);
+        memcpy(end->p, p, sizeof p);
     }
 }
 
