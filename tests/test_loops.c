@@ -134,11 +134,11 @@ TEST(rows_that_contradict_are_named)
 /* x = 0 and x + c y = 0, at rest, where c is 1 but for the middle: there the rows differ by rounding only */
 GVI_EACH(fading, 2, rows(2))
 {
-    const real c = fabs(x->t[0] - (real)0.5L) < (real)0.25L ? 2*sqrt(EPS) : 1;
+    const real c = fabs(x->t[0] - (real)0.5L) < (real)0.25L ? 2*(real)sqrt(EPS) : 1;
     for (int row = 0; row < 2; ++row) {
-        x->g[row] = x->q[0] + row*c*x->q[1];
+        x->g[row] = x->q[0] + (real)row*c*x->q[1];
         x->jacobian[2*row] = 1;
-        x->jacobian[2*row + 1] = row*c;
+        x->jacobian[2*row + 1] = (real)row*c;
     }
 }
 
