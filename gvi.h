@@ -124,12 +124,13 @@
               coordinate; no tolerance or test of the library depends on them.
               Magnitudes below 1e-307 (float: 1e-31) count as 0.
    rounding   Needs round to nearest and subnormals; -ffast-math and its parts are
-              refused, or have no effect (of clang's, do not use -fno-honor-nans, -fno-honor-
-              infinities, -freciprocal-math: no macro shows them). q, p and t carry
-              compensation terms, so 1e9 steps of t + h are as exact as one. Compiled with
-              -ffp-contract=off, it gives the same bits on every IEEE machine but x87, if the
-              callbacks give the same bits and products stay between 1e-290 and 1e299 (float:
-              1e-30 and 1e34); beyond, their low words depend on FMA.
+              refused, or have no effect; but of clang's, no macro shows -fno-honor-nans,
+              -fno-honor-infinities and -freciprocal-math: do not use them.  q, p and t
+              carry compensation terms, so 1e9 steps of t + h are as exact as one.
+              Compiled with -ffp-contract=off, it gives the same bits on every IEEE
+              machine but x87, if the callbacks give the same bits and products stay
+              between 1e-290 and 1e299 (float: 1e-30 and 1e34); beyond, their low words
+              depend on FMA.
    work       Bounded: docs/embedded.md has the bound, but not that of constraints.
    converged  A step ends when every coordinate has converged, each measured by
               its own size.  Where large forces cancel, a coordinate may never
@@ -245,10 +246,10 @@
    The step ends on g = 0 and on the hidden constraint G v + dg/dt = 0, G = dg/dq.  q and p are of
    order min(2s, u) for u >= 2s - 2, symplectic on the constraint manifold; degree 1 with Lobatto's
    two points is RATTLE.  Second derivatives are not needed.  Zeros in G cost nothing: list rows
-   that share coordinates near each other.  Of rows that depend on each other and
-   agree, one is left out, step by step: its multiplier is 0.  The rank must not change
-   within a step, as it does at a change point, where the motion branches.  Newton has lambda among
-   its unknowns, s (n + m) of them for m constraints; the fixed points solve for it as they go.
+   that share coordinates near each other.  Of rows that depend on each other and agree, one is
+   left out, step by step: its multiplier is 0.  The rank must not change within a step, as it does
+   at a change point, where the motion branches.  Newton has lambda among its unknowns, s (n + m) of
+   them for m constraints; the fixed points solve for it as they go.
 
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
    tau: t moves fast or slow, and the map is as symplectic as with fixed steps

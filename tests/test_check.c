@@ -647,15 +647,15 @@ static int skate(const gvi_points *x, void *user)
 
 TEST(rows_of_velocities_have_to_be_numbers)
 {
-    const gvi_effect scene[] = { { .kind = GVI_NONHOLONOMIC, .points = skate, .rows = 1 } };
-    const gvi_desc desc = { .n = 3, .effects = scene, .effect_count = 1 };
+    const gvi_effect rows[] = { { .kind = GVI_NONHOLONOMIC, .points = skate, .rows = 1 } };
+    const gvi_desc desc = { .n = 3, .effects = rows, .effect_count = 1 };
     const gvi_real q[3] = { 1, 2, 0.5 }, v[3] = { cos(0.5), sin(0.5), 1 };
-    check_finding list[9];
-    check_report report = { .list = list, .room = 9 };
-    assert_int_equal(check_scene(&desc, 0, q, v, &report), 0);
+    check_finding seen[9];
+    check_report all = { .list = seen, .room = 9 };
+    assert_int_equal(check_scene(&desc, 0, q, v, &all), 0);
     edge = NAN;
-    assert_true(check_scene(&desc, 0, q, v, &report) > 0);
-    assert_int_equal(list[0].what, CHECK_REFUSED);
+    assert_true(check_scene(&desc, 0, q, v, &all) > 0);
+    assert_int_equal(seen[0].what, CHECK_REFUSED);
     edge = 1;
 }
 

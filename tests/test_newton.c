@@ -574,11 +574,11 @@ GVI_EACH(damped_spring, 4, v, f)
 TEST(what_gains_less_than_two_bits_an_iteration_is_left_to_newton)
 {
     const gvi_real q[] = { 1, (gvi_real)0.25, (gvi_real)-0.5, (gvi_real)0.125 }, v[] = { 0, 1, (gvi_real)0.5, -1 };
-    const gvi_effect scene[] = { { .kind = GVI_FORCE, .points = damped_spring } };
+    const gvi_effect springs[] = { { .kind = GVI_FORCE, .points = damped_spring } };
     unsigned long long points[2];
     gvi_real end[2];
     for (int pinned = 0; pinned < 2; ++pinned) {
-        const gvi_desc desc = { .n = 4, .degree = 1, .effects = scene, .effect_count = 1,
+        const gvi_desc desc = { .n = 4, .degree = 1, .effects = springs, .effect_count = 1,
                                 .formulation = pinned ? GVI_VELOCITIES : GVI_AUTO };
         gvi_stepper st = new_motion(&desc, 0, q, v);
         for (int k = 0; k < 200; ++k) assert_ok(gvi_step(&st, (gvi_real)0.1L));

@@ -114,6 +114,7 @@ static inline gvi_status adjoint_scene(adjoint *A)
     *T = (tangent){ .plain = A->plain, .gradient = A->gradient, .velocity = A->velocity, .directions = 1,
                     .room = A->room, .room_length = A->room_length };
     for (int i = 0; i < GVI_EFFECTS; ++i) T->product[i] = A->product[i];
+    if (A->plain.mass.kind == GVI_MASS_POSITION && !A->plain.mass.velocity) return GVI_E_FORMULATION;
     const gvi_status status = tangent_scene(T);
     if (status) return status;
     if (!adjoint_symmetric(&A->plain.rule)) return GVI_E_FORMULATION;
