@@ -273,7 +273,7 @@ TEST(wrong_entries_of_f_are_named)
             for (int i = 0; i < made.desc.n; ++i)
                 for (int k = 0; k < COUNT(factors); ++k) {
                     if (fabs(f[i]) < 1e-6*largest(f) || !(largest(f) > 0)) continue;
-                    if (made.desc.n > 40 && (i + k) % 149) continue;          // a net takes its time
+                    if (made.desc.n >= 40 && (i + 47*k) % made.desc.n) continue;   // each factor once: they take time
                     slip_in(scenes[a]->name, e, FACTOR, "f", i, 0, factors[k]);
                     assert_found(CHECK_DERIVATIVE, e, "f", i, -1);
                     const check_finding *y = found(CHECK_DERIVATIVE, e, "f", i, -1);

@@ -9,7 +9,7 @@
 #include "fuzz/fuzz_scene.c"
 #include <limits.h>
 
-enum { SCENES = 90000, BYTES = 800 };
+enum { SCENES = 30000, BYTES = 800 };
 
 TEST(whatever_a_scene_does_every_call_ends_well)
 {

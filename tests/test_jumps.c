@@ -254,14 +254,15 @@ static real atoms_force(real K, const real *q, real *f)
 }
 
 /* Steps in turn of h/4 and h, of which the first rows are extrapolated to four times the length: that overshoots to
-   1e30, and the units of changes are not to stay what they were there.  Of 44,253 steps that were ok 347 were of
-   equations not solved. */
+   1e30, and the units of changes are not to stay what they were there.  Of the steps
+   that were ok one in 128 was of equations not solved. */
 TEST(an_overshoot_of_the_first_rows_hides_nothing)
 {
+    enum { RUNS = 500 };
     const scene a = { &(law){ "atoms", atoms_force, 8 }, 1 };
     const gvi_effect effect = { .kind = GVI_POTENTIAL, .points = points, .user = (void *)&a };
     int ok = 0;
-    for (int run = 0; run < 2000; ++run) {
+    for (int run = 0; run < RUNS; ++run) {
         const gvi_desc desc = { .n = 8, .degree = 1 + run % 8, .effects = &effect, .effect_count = 1,
                                 .formulation = run/8 % 2 ? GVI_POSITIONS : GVI_AUTO };
         const real h = (real)(0.22L*expl(1.5L*random_unit())), speed = (real)(0.05L + 0.45L*random_unit());
@@ -283,7 +284,7 @@ TEST(an_overshoot_of_the_first_rows_hides_nothing)
             ++ok;
         }
     }
-    assert_true(ok > 2000*STEPS/2);
+    assert_true(ok > RUNS*STEPS/2);
 }
 
 /* A force of 10 that ends at q = 1, softly */

@@ -225,7 +225,7 @@ TEST(no_step_changes_branch)
     unsigned draw = 1;
     const int fine = sizeof(real) == sizeof(float) ? 2 : 3;
     int right = 0, wrong = 0;
-    for (int trial = 0; trial < 2000; ++trial) {
+    for (int trial = 0; trial < 800; ++trial) {
         const int kind = trial % 4, s = 1 + trial/4 % 8;
         real L[4] = { (real)0.3L + fraction(&draw), (real)0.5L + 2*fraction(&draw), 0, (real)0.3L + 2*fraction(&draw) };
         if (kind == 0) L[3] = L[0];               // a parallelogram
@@ -261,7 +261,7 @@ TEST(no_step_changes_branch)
         else ++wrong;
     }
     assert_true(wrong <= (fine < 3 ? right/100 : 0));          // float: 6 of 1,121
-    assert_true(right > 500);
+    assert_true(right > 200);
 }
 
 /* Three parallel cranks with a plate between their ends: 6 rows of rank 5, and which of them can be left out changes

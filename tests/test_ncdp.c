@@ -72,11 +72,11 @@ TEST(half_a_million_steps_keep_the_energy_to_round_off)
 }
 
 /* Neighbours walk independently: their mean is no drift as long as it is within
-   four of its standard errors.  After 2^16 steps their spread is 256 times that of a
+   four of its standard errors.  After 2^14 steps their spread is 128 times that of a
    step; that of ten is known to 1/sqrt(20), four times which are allowed. */
 TEST(the_energy_error_of_an_ensemble_is_a_random_walk_without_drift)
 {
-    enum { RUNS = 10, LENGTH = 1 << 16 };
+    enum { RUNS = 10, LENGTH = 1 << 14 };
     long double sum = 0, squares = 0;
     for (int r = 0; r < RUNS; ++r) {
         const double q[2] = { 1.1 + 1e-5*r, -1.1 - 2e-5*r }, p[2] = { 2.7746, 2.7746 };
@@ -89,7 +89,7 @@ TEST(the_energy_error_of_an_ensemble_is_a_random_walk_without_drift)
     }
     print_message("    mean %.2Lg, root mean square %.2Lg\n", sum/RUNS, sqrtl(squares/RUNS));
     assert_close(sum/RUNS, 0, 4*sqrtl(squares)/RUNS);
-    assert_between(0.1L*256*PER_STEP, sqrtl(squares/RUNS), 1.9L*256*PER_STEP);
+    assert_between(0.1L*128*PER_STEP, sqrtl(squares/RUNS), 1.9L*128*PER_STEP);
 }
 
 RUN_TESTS(NULL, NULL)

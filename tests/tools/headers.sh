@@ -54,7 +54,7 @@ if [ "$quick" = --quick ]; then       # one compiler, in C and C++, each type on
         ! have "$second" || command_line "$second" c++ c++11 '-fsyntax-only -DGVI_STATIC' "$type" implementation
     done
     have "$second" || echo "  skipped: no $second" >&2
-    command_line "$first" c c99 -O0 double macros
+    command_line "$first" c c99 -fsyntax-only double macros
 else
     for compiler in gcc clang; do
         if have $compiler; then matrix $compiler c c99 c11 c17 c2x
@@ -76,13 +76,15 @@ count=$(wc -l <"$dir/matrix")
 printf '  %-28s %3d clean\n' 'compilations' "$count"
 
 # several translation units
-compilers='gcc clang' pairs='gcc,g++ clang,clang++'
-[ "$quick" != --quick ] || compilers=${CC:-cc} pairs=
+compilers='gcc clang' pairs='gcc,g++ clang,clang++' syntax=
+[ "$quick" != --quick ] || compilers=${CC:-cc} pairs= syntax=-fsyntax-only
 for compiler in $compilers; do
     have $compiler || continue
     cc="$compiler -std=c99 $strict"
     for type in float double 'long double'; do
-        $cc "-DGVI_REAL=$type" tests/compile/units_main.c tests/compile/units_other.c tests/compile/implementation.c \
+        implementation=tests/compile/implementation.c
+        [ "$quick" != --quick ] || implementation=$build/gvi-${type%% *}.o
+        $cc "-DGVI_REAL=$type" tests/compile/units_main.c tests/compile/units_other.c $implementation \
             -o "$dir/units" -lm && "$dir/units" || fail "$compiler: two units that share one implementation, $type"
         count=$((count + 1))
     done
@@ -92,7 +94,7 @@ for compiler in $compilers; do
     $cc tests/compile/static_main.c "$dir/float.o" "$dir/double.o" -o "$dir/static" -lm && "$dir/static" ||
         fail "$compiler: float and double in one program"
     for page in guide embedded; do
-        $cc -c tests/compile/$page.c -o /dev/null || fail "$compiler: tests/compile/$page.c"
+        $cc $syntax -c tests/compile/$page.c -o /dev/null || fail "$compiler: tests/compile/$page.c"
     done
     count=$((count + 3))
 done
