@@ -954,11 +954,11 @@ static inline gvi_real *check_memory(struct check_run *c)
 /* May the scene be looked at?  Not what gvi_init refuses, whatever the steps are to be.          */
 static inline gvi_status check_refused(const gvi_desc *desc)
 {
-    gvi_desc plain = { .n = desc->n, .degree = 1, .effects = desc->effects, .effect_count = desc->effect_count, .mass = desc->mass };
+    gvi_desc plain = { .n = desc->n, .degree = 1, .mass = desc->mass, .effects = desc->effects, .effect_count = desc->effect_count };
     gvi_stepper st;
     if (plain.mass.matrix) plain.mass.kind = GVI_MASS_UNIT, plain.mass.matrix = NULL;     // is looked at here
     const size_t size = gvi_size(&plain);
-    void *memory = malloc(size + 1);
+    gvi_real *memory = (gvi_real *)malloc(size + 1);
     const gvi_status status = memory ? gvi_init(&st, &plain, memory, size) : GVI_E_MEMORY;
     free(memory);
     return status;
