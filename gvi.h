@@ -4929,13 +4929,12 @@ static void gvi__momenta_predict(gvi_stepper *st, int extrapolate, gvi_real rate
         for (int k = 0; k < st->r; ++k) in->work.V[i*R + k] = rate*in->momenta.was[i];
 }
 
-/* V := M^-1 (P - A), with the constant mass or the factored M(Q)                             */
-static void gvi__velocity_rows(const gvi_stepper *st)
+/* V := M^-1 (P - A), with the constant mass or the factored M(Q); V may be P                 */
+static void gvi__velocity_rows(const gvi_stepper *st, const gvi_real *P, gvi_real *V)
 {
     const struct gvi__private *in = &st->in;
     const int n = st->n, R = in->R;
-    const gvi_real *P = in->momenta.P, *A = gvi__rows_of_A(in);
-    gvi_real *V = in->work.V;
+    const gvi_real *A = gvi__rows_of_A(in);
 
     if (A) {
         for (int k = 0; k < n*R; ++k) V[k] = P[k] - A[k];
@@ -4976,7 +4975,7 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
 
     // where that fails it does so again with the new Q
     if (in->desc.mass.velocity) (void)gvi__evaluate_mass(st, &at, in->momenta.P, in->work.V);
-    else gvi__velocity_rows(st);
+    else gvi__velocity_rows(st, in->momenta.P, in->work.V);
     if (clock) gvi__clock_velocities(st);
     if (!made) return 0;
     for (int i = 0; i < n; ++i) {
@@ -5000,7 +4999,7 @@ static gvi_status gvi__momenta_evaluate(gvi_stepper *st, gvi_points *at)
     else if (in->momenta.mass) status = gvi__factor_mass(st, at);
     if (status != GVI_OK) return status;
     in->momenta.has_factor = 1;
-    if (!in->desc.mass.velocity) gvi__velocity_rows(st);
+    if (!in->desc.mass.velocity) gvi__velocity_rows(st, in->momenta.P, in->work.V);
     else if (GVI__LOOKS(st)) status = gvi__check_rows(st, at, in->work.V, GVI_FAULT_MASS);
     return status;
 }
@@ -6774,19 +6773,19 @@ static void gvi__weighted_sums(const gvi_stepper *st, const gvi_real *table, con
     gvi__sums(st, table, scratch, rows, add);
 }
 
-// D, from the stage that makes Q
-GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const gvi__stage *stage)
+// D, from what makes Q
+GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const gvi__stage *stage,
+                                      const gvi_real *source)
 {
     const struct gvi__private *in = &st->in;
     const int n = st->n, R = in->R;
-    const gvi__stage *y = stage + in->con.Q;
     gvi_real *D = in->con.D, *scratch = in->con.plus;
-    gvi__weighted_sums(st, in->con.by_force, in->sized.hb, y->source, scratch, D, 0);
+    gvi__weighted_sums(st, in->con.by_force, in->sized.hb, source, scratch, D, 0);
     if (in->con.Q == 0) {
         gvi__weighted_sums(st, in->con.by_impulse, in->con.hw, in->con.force, scratch, D, 1);
         gvi__over_mass(st, D, R, R);
     }
-    for (int i = 0; i < n*R; ++i) D[i] = in->con.free[i] + D[i]*y->factor;
+    for (int i = 0; i < n*R; ++i) D[i] = in->con.free[i] + D[i]*stage[in->con.Q].factor;
 }
 
 // G' lambda at the sources; the rows behind the forces hold -lambda
@@ -6871,24 +6870,24 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
     return status;
 }
 
-// V of a trial: the P that the new F and the old lambda make
-static void gvi__trial_velocities(gvi_stepper *st, const gvi__stage *stage)
+// V of a trial: of the P that the new F and the old lambda make
+static const gvi_real *gvi__trial_velocities(gvi_stepper *st, const gvi__stage *stage)
 {
+    gvi_real *trial = st->in.con.P;
 #ifndef GVI_NO_MOMENTA
     struct gvi__private *in = &st->in;
-    const int n = st->n, R = in->R;
-    gvi_real *const P = in->momenta.P, *trial = in->con.P, *scratch = in->con.plus;
-
+    gvi_real *scratch = in->con.plus;
     gvi__weighted_sums(st, stage->table, in->sized.hb, stage->source, scratch, trial, 0);
     gvi__weighted_sums(st, in->con.U, in->con.hw, in->con.force, scratch, trial, 1);
-    for (int i = 0; i < n; ++i)
-        for (int k = i*R; k < i*R + R; ++k) trial[k] = stage->base[i] + (stage->free[k] + trial[k]);
-    in->momenta.P = trial;
-    gvi__velocities_again(st);
-    in->momenta.P = P;
+    for (int i = 0; i < st->n; ++i)
+        for (int k = i*in->R; k < (i + 1)*in->R; ++k)
+            trial[k] = stage->base[i] + (stage->free[k] + trial[k]);
+    gvi__velocity_rows(st, trial, trial);
+    gvi__count(&st->counters.velocities, st->r);
 #else
-    (void)st, (void)stage;
+    (void)stage;
 #endif
+    return trial;
 }
 
 // the new lambda, and forces.  With momenta D' needs the P and V of the new F
@@ -6899,8 +6898,9 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const 
     gvi_real *lambda = in->con.force + n*R, *rho = in->con.rho, *moved = in->con.W;
 
     gvi__constraint_forces(st);
-    if (in->con.Q > 0) gvi__trial_velocities(st, stage);
-    gvi__constraint_rows(st, stage);
+    const gvi_real *source =
+        in->con.Q > 0 ? gvi__trial_velocities(st, stage) : stage[0].source;
+    gvi__constraint_rows(st, stage, source);
     for (int i = 0; i < n; ++i) {                 // D - D'
         gvi_real *GVI__RESTRICT z = moved + i*C;
         const gvi_real *at = in->con.at + i*C + 1, *D = in->con.D + i*R;
@@ -6939,7 +6939,7 @@ static void gvi__constraint_behind(gvi_stepper *st, const gvi__stage *stage, gvi
 {
     st->in.con.linear |=
         GVI__DIG > FLT_MANT_DIG && st->in.con.made > 0 && sum < GVI__EPS*GVI_SQRT(GVI__EPS);
-    gvi__constraint_rows(st, stage);
+    gvi__constraint_rows(st, stage, stage[st->in.con.Q].source);
 }
 
 // |G|'|rho| of lambda's last change, or 0 if that was not all rounding, 8 eps of the known terms

@@ -1048,4 +1048,52 @@ TEST(velocities_that_contradict_are_not_projected)
     }
 }
 
+GVI_EACH(rippled_dune, 3, rows(1))                /* q_1 + sin(3 q_1)/6 = a sin(q_0) - q_2^2/2 */
+{
+    const real a = *(const real *)user;
+    x->g[0] = x->q[1] + sin(3*x->q[1])/6 - a*sin(x->q[0]) + x->q[2]*x->q[2]/2;
+    x->jacobian[0] = -a*cos(x->q[0]);
+    x->jacobian[1] = 1 + cos(3*x->q[1])/2;
+    x->jacobian[2] = x->q[2];
+}
+
+GVI_EACH(cross_term, 3, v, f, dldv)              /* L = q_0 v_2/2 */
+{
+    (void)user;
+    x->dldv[2] += x->q[0]/2;
+    x->f[0] += x->v[2]/2;
+}
+
+GVI_EACH(heavy_load, 3, f)
+{
+    (void)user;
+    x->f[1] -= 80;
+}
+
+/* By momenta, whose velocities are made of trial multipliers on the way: those of the end count.  A last place of lambda
+   moves g by h^2 lambda G_1^2/m_1 of it */
+TEST(a_light_body_under_a_heavy_load_ends_on_its_row)
+{
+    static const real m[] = { 2, (real)0.01L, 20 };
+    const real h = (real)0.08L;
+    for (int k = 0; k < 28; ++k) {
+        real a = 1 + (real)k/50, q[] = { (real)0.3L, 0, (real)0.5L + (real)k/100 }, v[] = { 1, 0, (real)-0.5L }, lambda;
+        const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = heavy_load }, { .kind = GVI_LAGRANGIAN, .points = cross_term },
+                                     { .kind = GVI_CONSTRAINT, .points = rippled_dune, .rows = 1, .user = &a } };
+        const gvi_desc desc = { .n = 3, .degree = 6, .effects = scene, .effect_count = 3,
+                                .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = m } };
+        gvi_stepper st;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        assert_ok(gvi_project(&st, 0, q, v, NULL));
+        assert_ok(gvi_start(&st, 0, q, v));
+        for (int step = 0; step < 5; ++step) {
+            assert_ok(gvi_step(&st, h));
+            assert_ok(gvi_multipliers(&st, &lambda));
+            const long double x = st.q[1], G = 1 + cosl(3*x)/2, wave = a*sinl(st.q[0]), well = (long double)st.q[2]*st.q[2]/2;
+            const long double terms = fabsl(x) + fabsl(wave) + well, place = (long double)(h*h*fabs(lambda)/m[1])*G*G;
+            assert_close(x + sinl(3*x)/6 - wave + well, 0, EPS*(16*terms + place));
+        }
+    }
+}
+
 RUN_TESTS(NULL, NULL)
