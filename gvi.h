@@ -6870,28 +6870,28 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
     return status;
 }
 
-// V of a trial: of the P that the new F and the old lambda make
-static const gvi_real *gvi__trial_velocities(gvi_stepper *st, const gvi__stage *stage)
+// V of the P that F and lambda make
+static const gvi_real *gvi__pushed_velocities(gvi_stepper *st, const gvi__stage *stage)
 {
-    gvi_real *trial = st->in.con.P;
+    gvi_real *z = st->in.con.P;
 #ifndef GVI_NO_MOMENTA
     struct gvi__private *in = &st->in;
     gvi_real *scratch = in->con.plus;
-    gvi__weighted_sums(st, stage->table, in->sized.hb, stage->source, scratch, trial, 0);
-    gvi__weighted_sums(st, in->con.U, in->con.hw, in->con.force, scratch, trial, 1);
+    gvi__weighted_sums(st, stage->table, in->sized.hb, stage->source, scratch, z, 0);
+    gvi__weighted_sums(st, in->con.U, in->con.hw, in->con.force, scratch, z, 1);
     for (int i = 0; i < st->n; ++i)
         for (int k = i*in->R; k < (i + 1)*in->R; ++k)
-            trial[k] = stage->base[i] + (stage->free[k] + trial[k]);
-    gvi__velocity_rows(st, trial, trial);
+            z[k] = stage->base[i] + (stage->free[k] + z[k]);
+    gvi__velocity_rows(st, z, z);
     gvi__count(&st->counters.velocities, st->r);
 #else
     (void)stage;
 #endif
-    return trial;
+    return z;
 }
 
 // the new lambda, and forces.  With momenta D' needs the P and V of the new F
-GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const gvi_real *q0)
+static void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const gvi_real *q0)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C;
@@ -6899,7 +6899,7 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const 
 
     gvi__constraint_forces(st);
     const gvi_real *source =
-        in->con.Q > 0 ? gvi__trial_velocities(st, stage) : stage[0].source;
+        in->con.Q > 0 ? gvi__pushed_velocities(st, stage) : stage[0].source;
     gvi__constraint_rows(st, stage, source);
     for (int i = 0; i < n; ++i) {                 // D - D'
         gvi_real *GVI__RESTRICT z = moved + i*C;
@@ -6920,6 +6920,15 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const 
     for (int a = 0; a < m; ++a)
         for (int e = 0; e < s; ++e) lambda[a*R + e] += rho[a*R + e]/(in->sized.h*in->con.hw[e]);
     gvi__constraint_forces(st);
+}
+
+// after the last F: the lambda of that, and where V makes the end of q, the V of both
+GVI__CALLED void gvi__constraint_last(gvi_stepper *st, const gvi__stage *stage, const gvi_real *q0)
+{
+    struct gvi__private *in = &st->in;
+    gvi__constrain(st, stage, q0);
+    if (in->con.Q == 0) return;
+    gvi__copy((size_t)(st->n*in->R), gvi__pushed_velocities(st, stage), in->work.V);
 }
 
 // before the rows: lambda, and what the impulses add to them
@@ -9782,7 +9791,7 @@ static gvi_status gvi__place_evaluate(gvi_stepper *st, const gvi__origin *from, 
 static void gvi__place_last(gvi_stepper *st, const gvi__origin *from, const gvi__stage *stage)
 {
     (void)st, (void)from, (void)stage;
-    GVI__CONSTRAINTS_ON(gvi__constrain(st, stage, from->q))
+    GVI__CONSTRAINTS_ON(gvi__constraint_last(st, stage, from->q))
 }
 
 static int gvi__place_judge(gvi_stepper *st, const struct gvi__progress *p, gvi_real D,
