@@ -957,6 +957,7 @@ struct gvi__holonomic {               /* m rows on; C = stride of D_0..D_s      
     int       kept;                   /* last is there: for the curve; 2: to predict as well   */
     int       linear;                 /* g is linearised from the last D                       */
     gvi_real  near_start;             /* see gvi__check_rank                                   */
+    int       margin;                 /* of that: 1, or GVI__FADES once a step has failed      */
     int       settled, again;         /* steps since the start; see gvi__find_columns          */
     unsigned  bits;                   /* the effects                                           */
     unsigned  checked;                /* those with derivatives that were seen to be right     */
@@ -7216,7 +7217,10 @@ GVI__CALLED gvi_status gvi__check_rank(gvi_stepper *st, int margin)
         if (margin > 0) return gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
         most = lost*A[a*m + a];
     }
-    if (margin == 0) st->in.con.near_start = most;
+    if (margin == 0) {
+        st->in.con.near_start = most;
+        st->in.con.margin = 1;
+    }
     return GVI_OK;
 }
 
@@ -7252,7 +7256,7 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     if (!start && status == GVI_OK && more != 0)
         status = gvi__report_row(st, GVI_E_SINGULAR, row, GVI_FAULT_NONE);
 
-    if (status == GVI_OK) status = gvi__check_rank(st, !start);
+    if (status == GVI_OK) status = gvi__check_rank(st, start ? 0 : in->con.margin);
     if ((start || redundant) && status == GVI_OK) status = gvi__fulfilled(st, t, q, p, v, start);
     if (status != GVI_OK) return status;
     gvi__zero((size_t)m, in->con.y);
@@ -7626,7 +7630,10 @@ GVI__OFFERED int gvi__constraint_explain(gvi_stepper *st, gvi_status status, gvi
     gvi_real *drops = st->in.con.drops + st->in.con.m;
     if (!gvi__constrained(st)) return 0;
     *start = gvi__constraints_at(st, st->t, st->q, st->p, v, drops);
-    if (*start == GVI_OK) *start = gvi__check_rank(st, GVI__FADES);
+    if (*start == GVI_OK) {
+        *start = gvi__check_rank(st, GVI__FADES);
+        if (*start != GVI_OK) st->in.con.margin = GVI__FADES;
+    }
     if (*start != GVI_OK || status != GVI_E_SINGULAR) return 0;
     for (int a = 0; a < st->in.con.m; ++a)
         if (drops[a] > 0) return 1;
@@ -9096,12 +9103,12 @@ static gvi_status gvi__explain_effects(gvi_stepper *st, gvi_points *at, unsigned
     return gvi__diagnose(st, at, skip | st->in.off | st->in.apart, value);
 }
 
-/* Why did a step fail?  What is singular, NaN or infinite already where it starts is reported as
-   that: no h helps.  All else is the step's own, and a shorter one may do.                    */
 // what chapters know: 1 if `status` stands; *start: what is wrong where the step starts; M(q)
 static int gvi__place_explain(gvi_stepper *st, gvi_status status, gvi_real *v, gvi_status *start);
 static void gvi__place_probe(gvi_stepper *st, const gvi_points *at);
 
+/* Why did a step fail?  What is singular, NaN or infinite already where it starts is reported as
+   that: no h helps.  All else is the step's own, and a shorter one may do.                    */
 GVI__COLD gvi_status gvi__explain_step(gvi_stepper *st, gvi_status status)
 {
     struct gvi__private *in = &st->in;

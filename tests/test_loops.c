@@ -331,8 +331,8 @@ TEST(three_cranks_with_a_plate_turn)
         }
         turned += status == GVI_OK;
     }
-    // none, if the last row is always the one that is left out; in larger counts one in ten gets stuck at some angle
-    assert_true(turned > trials*3/4);
+    // none, if the last row is always the one that is left out
+    assert_true(turned > trials - 2);
 }
 
 GVI_EACH(weight, 4, f, value)
@@ -346,8 +346,8 @@ GVI_EACH(weight, 4, f, value)
    in every step that is taken, however short, and the end is a row, not a sentence about h. */
 TEST(tiny_steps_before_a_change_point_are_right_or_refused)
 {
+    const real most = sizeof(real) == 4 ? (real)0.005L : 5e9L*EPS;
     int named = 0;
-    if (sizeof(real) == 4) return;                                // h of 1e-11 is rounding of t anyway
     for (int run = 0; run < 24; ++run) {
         static real bars_of_1[4] = { 1, 1, 1, 1 };
         gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = weight, .value = weight },
@@ -367,7 +367,7 @@ TEST(tiny_steps_before_a_change_point_are_right_or_refused)
                 continue;
             }
             assert_ok(gvi_energy(&st, &E));
-            assert_between(-5e9L*EPS, E - last, 5e9L*EPS);
+            assert_between(-most, E - last, most);
             last = E;
         }
         if (status == GVI_OK) continue;                           // it went through flat
