@@ -951,6 +951,7 @@ struct gvi__holonomic {               /* m rows on; C = stride of D_0..D_s      
     gvi_real *G1, *gram1;              /* [2][m][n], [m][m] at one point                        */
     gvi_real *column, *first;         /* [m][n+1], [m] where G is not 0: gvi__find_columns     */
     gvi_real *drops;                  /* [2][m] rows left out: gvi__factor_constraints         */
+    gvi_real *noise;                  /* [m] |g| at ends of steps: gvi__constraint_reach       */
     int       m, C;
     int       Q;                      /* the stage that makes Q                                */
     int       made;                   /* iterations                                            */
@@ -1347,7 +1348,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
     + (GVI__SIZE(m)*(GVI__SIZE(n) + 2) + GVI__SIZE(r))*GVI__SIZE(GVI__ROW(r))     \
     + (6*GVI__SIZE(n) + 3*GVI__SIZE(m) + 2*GVI__SIZE(r) + 5*GVI__SIZE(s) + 4 + (4 + GVI__SIZE(m)) \
        *(GVI__SIZE(n) + GVI__SIZE(m)))*(GVI__SIZE(GVI__ROW(r)) + GVI__SIZE(GVI__ROW((s) + 1)))    \
-    + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + (2*GVI__SIZE(n) + 9)*GVI__SIZE(m) \
+    + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + (2*GVI__SIZE(n) + 10)*GVI__SIZE(m) \
     + (12 + 2*GVI__SIZE(s)*(2*GVI__SIZE(n) + GVI__SIZE(m)))*GVI__SIZE(s)*GVI__SIZE(m))
 
 #ifdef __cplusplus
@@ -1715,7 +1716,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__CANCELS 16                    // s^2 eps: rounding of forces that cancel
 #define GVI__FALL 8                        // the most that it shrinks, and after a failure
 #define GVI__RESTS 4096                    // times slower than the fastest: judged with it
-#define GVI__PULLED 64                     // eps of the motion: rounding of forces of constraint
+#define GVI__PULLED 64                     // roundings of g, or of forces of constraint
 #define GVI__DEEP (GVI__DIG/2)             // degree whose modes reach rounding
 
 /* ---------------------------------------------------------------- BLOCKS */
@@ -7248,6 +7249,8 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     gvi_status status = gvi__constraints_at(st, t, q, p, v, drops);
     if (start) GVI__LOOK(st, 0);
     for (int a = 0; a < m; ++a) {
+        const gvi_real faded = start ? 0 : in->con.noise[a]*(gvi_real)0.75;
+        if (status == GVI_OK) in->con.noise[a] = gvi__larger(GVI_ABS(in->con.g[a]), faded);
         redundant |= drops[a] > 0;
         more += (drops[a] > 0) - (in->con.drops[a] > 0);
         if ((drops[a] > 0) != (in->con.drops[a] > 0)) row = a;
@@ -7508,6 +7511,38 @@ GVI__OFFERED gvi_real gvi__constraint_mode(const gvi_stepper *st, int i, int k)
     return sum;
 }
 
+/* How far the rounding of g moves the coordinates: M^-1 G' A^-1 of what ends of steps were off by,
+   or of eps of its known terms, once with one sign and once with signs that alternate, added.  To
+   con.W; NULL where nothing holds.  All is that of the end, which was projected last.         */
+GVI__OFFERED const gvi_real *gvi__constraint_reach(const gvi_stepper *st)
+{
+    const struct gvi__private *in = &st->in;
+    const gvi_effect *effects = in->desc.effects;
+    const int n = st->n, m = in->con.m;
+    gvi_real *reach = in->con.W, *moved = reach + n, *z = in->con.rho;
+
+    if (!gvi__constrained(st)) return NULL;
+    gvi__zero((size_t)n, reach);
+    for (int alternate = 0; alternate < 2; ++alternate) {
+        for (int a = 0; a < m; ++a) {
+            z[a] = GVI__EPS*gvi__terms(st, 1, st->t, in->state.q, in->con.G1, in->con.g + m, a);
+            z[a] = gvi__larger(in->con.noise[a], z[a]);
+            if (alternate && a % 2) z[a] = -z[a];
+        }
+        for (int e = 0, a = 0; e < in->desc.effect_count; ++e) {
+            if (!(gvi__constraints_on(st) >> e & 1u)) continue;
+            if (in->rolling.bits >> e & 1u) gvi__zero((size_t)effects[e].rows, z + a);
+            a += effects[e].rows;
+        }
+        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
+        gvi__zero((size_t)n, moved);
+        gvi__add_force(st, z, moved);
+        gvi__over_inertia(st, moved, 1, 1);
+        for (int i = 0; i < n; ++i) reach[i] += GVI_ABS(moved[i]);
+    }
+    return reach;
+}
+
 /* ---- set-up, start and switch ---- */
 
 GVI__COLD const char *gvi__wrong_in_constraint(const struct gvi__private *in, int e)
@@ -7580,7 +7615,7 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
         { &con->w, on, s + 1 }, { &con->rho, m, R + C }, { &con->lu, i*(s + 1), s + 1 },
         { &con->y, on, m },
         { &con->G1, 2*m, n }, { &con->gram1, m, m }, { &con->column, m, n + 1 },
-        { &con->first, on, m }, { &con->drops, 2*on, m }
+        { &con->first, on, m }, { &con->drops, 2*on, m }, { &con->noise, on, m }
 
     };
     con->C = (int)C;
@@ -7937,6 +7972,7 @@ GVI__COLD void gvi__rolling_layout(struct gvi__private *in, gvi__arena *a)
 #else
 #define gvi__constrained(st) 0
 #define gvi__constraint_mode(st, i, k) ((void)(k), (gvi_real)0)
+#define gvi__constraint_reach(st) NULL
 #endif /* GVI_NO_CONSTRAINTS */
 
 #if !defined(GVI_NO_NEWTON) && !defined(GVI_NO_CONSTRAINTS)
@@ -8408,9 +8444,9 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
    it looks.  Stiff forces, for which Newton's method had to take over, turn all of y_s into an
    error: high.  (With constraints it takes over for other reasons.)  Below K = 4 single modes
    count, below 6 two pairs.  In positions the modes are those of M v, from the forces.  Where
-   motion is far below max |v| + max |q|/h, each times sqrt(M_ii), and below max |v| + |q_i|/h, so
-   that neither a light body nor one near the origin counts as at rest, an error of some s^2 eps of
-   the smaller of these is rounding, and relative to it.                                       */
+   motion is far below max |v| + max |q|/h, each times sqrt(M_ii), and below max |v| + |q_i|/h, or
+   what rounding of g makes of it, so that neither a light body nor one near the origin counts as
+   at rest, an error of some s^2 eps of the smaller of these is rounding, and relative to it.  */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
@@ -8444,15 +8480,17 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
         v = gvi__larger(size[i]/mass[i], v);
     }
 
-    const gvi_real whole = fastest + farthest/h;
+    const gvi_real whole = fastest + farthest/h, *reach = gvi__constraint_reach(st);
     if (!(whole > 0)) return 0;
     for (int i = 0; i < st->n; ++i) {
         const gvi_real own = mass[i]*(v + GVI_ABS(in->state.q[i])/h),
                        around = gvi__smaller(own, whole);
         const int rests = size[i] < around/GVI__RESTS;
 
-        // forces of constraint bring more of it, to every coordinate, and no h makes it smaller
-        if (constrained && (forces || rests) && missed[i] <= GVI__PULLED*GVI__EPS*whole) continue;
+        // what rounding of g, and of forces of constraint, makes of it: less the longer a step is
+        gvi_real noise = reach ? mass[i]*reach[i]/h : 0;
+        if (reach && (forces || rests)) noise = gvi__larger(GVI__EPS*whole, noise);
+        if (missed[i] <= GVI__PULLED*noise) continue;
         if (rests && missed[i] <= GVI__CANCELS*rounding*around) size[i] = around;
         worst = gvi__larger(missed[i]/size[i], worst);
     }
