@@ -1716,7 +1716,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__CANCELS 16                    // s^2 eps: rounding of forces that cancel
 #define GVI__FALL 8                        // the most that it shrinks, and after a failure
 #define GVI__RESTS 4096                    // times slower than the fastest: judged with it
-#define GVI__PULLED 64                     // roundings of g, or of forces of constraint
+#define GVI__PULLED 256                    // roundings of g, or of forces of constraint
 #define GVI__DEEP (GVI__DIG/2)             // degree whose modes reach rounding
 
 /* ---------------------------------------------------------------- BLOCKS */
