@@ -178,6 +178,25 @@ TEST(the_measure_is_that_of_the_modes)
     }
 }
 
+/* Where the mass is gone no h helps: one step is tried */
+static int mass_of_user(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) x->mass[k] = *(const real *)user;
+    return 0;
+}
+
+TEST(what_is_singular_is_not_tried_again)
+{
+    real mass = 1;
+    const gvi_desc desc = { .n = 1, .degree = 4, .resolution = R(1e-3),
+                            .mass = { .kind = GVI_MASS_POSITION, .points = mass_of_user, .gradient = nothing, .user = &mass } };
+    gvi_stepper st = new_motion(&desc, 0, (const real[]){ 0 }, (const real[]){ 1 });
+    assert_ok(gvi_advance(&st, 10));
+    mass = 0;
+    SAME_STATE(&st) assert_status(gvi_advance(&st, 10), GVI_E_SINGULAR);
+    assert_int_equal(st.counters.failures, 1);
+}
+
 /* Masses and forces 2^-40 times as large change nothing at all: in forces the scale of a coordinate is 1/sqrt(M) */
 AT_EACH(weak_attraction)
 {
@@ -380,6 +399,20 @@ TEST(coarse_dials_refuse_one_step_in_eight_at_most)
     assert_true(8*refused <= tries);
 }
 
+/* Where the way to a pericenter asks for shorter and shorter steps, they become so before they are refused */
+TEST(a_comets_dial_refuses_one_step_in_twelve_at_most)
+{
+    unsigned long refused = 0, tries = 0;
+    for (int degree = 4; degree < 9; degree += 2) {
+        const gvi_desc desc = of(degree, KIND == 1 ? R(1e-4) : R(1e-7));
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ R(0.1), 0 }, (const real[]){ 0, sqrt(R(19.0)) });
+        while (st.t < 60) assert_ok(gvi_advance(&st, 60));
+        refused += (unsigned long)st.counters.failures;
+        tries += (unsigned long)(st.counters.failures + st.counters.steps);
+    }
+    assert_true(12*refused <= tries);
+}
+
 TEST(h_stays_within_a_band)
 {
     /* Kepler, e = 0.01: the length that the limit allows varies by (1.01/0.99)^(3/2) */
@@ -552,6 +585,7 @@ GVI_EACH(two_springs, 2, f)
 
 TEST(what_all_but_rests_does_so_in_any_units)
 {
+    real first = 0;
     for (int k = 0; k < 3; ++k) {
         const real u = k == 1 ? 1/EPS : 1, tiny = EPS*EPS/u;
         const real all = k < 2 ? 1 : ldexp(R(1.0), KIND == 1 ? -74 : -4*DIG), m[2] = { all, all*u*u };
@@ -560,6 +594,13 @@ TEST(what_all_but_rests_does_so_in_any_units)
                                 .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = m } };
         gvi_stepper st = new_motion(&desc, 0, (const real[]){ R(0.25), tiny }, (const real[]){ R(0.5), tiny });
         assert_ok(gvi_step(&st, R(0.5)));
+        if (k == 0) first = st.resolution;
+        assert_true(st.resolution == first);
+        // slow, but not at rest: at w h = 3.16 Gauss's rule of 5 points misses 5!^2/(10! 11!) (w h)^11 = 3e-5
+        if (KIND == 1) continue;
+        assert_ok(gvi_start(&st, 0, (const real[]){ R(0.25), R(1e-6)/u }, (const real[]){ R(0.5), R(1e-6)/u }));
+        assert_ok(gvi_step(&st, R(0.5)));
+        assert_between(R(3e-5), st.resolution, R(1e-3));
     }
 }
 
