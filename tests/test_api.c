@@ -1067,6 +1067,26 @@ TEST(a_start_has_no_time_left_over)
     tear_down(&b);
 }
 
+/* Started again it goes as one that has just been started, to the bit: no low word is left over, no curve, no method */
+TEST(a_start_leaves_nothing_of_the_last_motion)
+{
+    for (int k = 0; k < COUNT(scenes); ++k) {
+        bench a = start(&scenes[k]), b = start(&scenes[k]);
+        steps(&a.st, 7, 0.1);
+        assert_ok(gvi_start(&a.st, 0.25, q_start, v_start));
+        assert_true(a.st.t0 == 0.25 && a.st.formulation == b.st.formulation);
+        move_alike(&a.st, &b.st, 20, h_good);
+        tear_down(&a);
+        tear_down(&b);
+    }
+    const real q[] = { 0.01, 1 }, v[] = { 1, 0 };
+    gvi_stepper st = start_stiff((gvi_desc){ .degree = 4 });
+    assert_ok(gvi_step(&st, 0.5));
+    assert_int_equal(st.formulation, GVI_NEWTON);
+    assert_ok(gvi_start(&st, 0, q, v));
+    assert_int_equal(st.formulation, GVI_POSITIONS);
+}
+
 /* q and p in the second half of a step are rounded once: low words of q, p and t are in them */
 AT_POINT(pull) { return f[0] += 0.7, 0; }
 

@@ -490,6 +490,13 @@ TEST(a_start_off_the_constraint_is_refused)
         assert_int_equal(st.fault.effect, 1);
         assert_int_equal(st.fault.coordinate, 1);
     }
+    for (int k = 0; k < 2; ++k) {                 // both bodies moved: the upper row alone
+        linkage b = a;
+        for (int i = 0; i < 4; i += 2) (k ? b.v : b.q)[i] += (real)0.01L;
+        assert_status(gvi_start(&st, 0, b.q, b.v), GVI_E_CONSTRAINT);
+        assert_int_equal(st.fault.effect, 1);
+        assert_int_equal(st.fault.coordinate, 0);
+    }
     linkage b = a;                                // rounding is not refused
     b.q[0] += 8*EPS;
     assert_ok(gvi_start(&st, 0, b.q, b.v));
@@ -570,6 +577,97 @@ TEST(a_row_that_becomes_dependent_is_refused)
     }
 }
 
+TEST(a_step_that_ends_where_a_row_depends_is_refused)
+{
+    real when = (real)0.5L;
+    const gvi_effect effects[] = { { .kind = GVI_CONSTRAINT, .points = scissors, .rows = 2, .user = &when } };
+    for (int f = GVI_POSITIONS; f <= GVI_NEWTON; ++f) {
+        const gvi_desc desc = { .n = 2, .degree = 2, .effects = effects, .effect_count = 1, .formulation = (gvi_formulation)f };
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ 0, 0 }, (const real[]){ 0, 0 });
+        assert_ok(gvi_step(&st, (real)0.25L));
+        SAME_STATE(&st) assert_true(gvi_step(&st, (real)0.25L) != GVI_OK);
+        assert_int_equal(st.fault.effect, 0);
+        assert_int_equal(st.fault.coordinate, 1);
+    }
+}
+
+/* x = 0 and x + c y = 0: rows nearly one where the motion starts, and for good, are no change point */
+GVI_EACH(narrow, 3, rows(2))
+{
+    const real c = *(const real *)user;
+    for (int row = 0; row < 2; ++row) {
+        x->g[row] = x->q[0] + (real)row*c*x->q[1];
+        x->jacobian[3*row] = 1;
+        x->jacobian[3*row + 1] = (real)row*c;
+    }
+}
+
+TEST(rows_that_are_nearly_one_from_the_start_on_may_stay_so)
+{
+    real c = sqrt(EPS)*32;
+    const gvi_effect effects[] = { { .kind = GVI_CONSTRAINT, .points = narrow, .rows = 2, .user = &c } };
+    for (int f = GVI_POSITIONS; f <= GVI_NEWTON; ++f) {
+        const gvi_desc desc = { .n = 3, .degree = 3, .effects = effects, .effect_count = 1, .formulation = (gvi_formulation)f };
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ 0, 0, 0 }, (const real[]){ 0, 0, 1 });
+        for (int k = 0; k < 10; ++k) assert_ok(gvi_step(&st, (real)0.125L));
+        assert_true(st.q[0] == 0 && st.q[1] == 0);
+        assert_close(st.q[2], (real)1.25L, 2*EPS);
+    }
+}
+
+/* Along a guide nothing but the force acts: p is its sum to the last bits, however many steps */
+GVI_EACH(guide, 2, rows(1))
+{
+    x->g[0] = x->q[1];
+    x->jacobian[1] = 1;
+}
+
+TEST(what_slides_keeps_its_low_words)
+{
+    static real force[] = { (real)0.1L, -1 };
+    const gvi_effect effects[] = { { .kind = GVI_CONSTRAINT, .points = guide, .rows = 1 },
+                                   { .kind = GVI_POTENTIAL, .points = constant, .user = force } };
+    for (int f = GVI_POSITIONS; f <= GVI_NEWTON; ++f) {
+        const gvi_desc desc = { .n = 2, .degree = 2, .effects = effects, .effect_count = 2, .formulation = (gvi_formulation)f };
+        const long double h = (real)0.01L, push = force[0];
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ 0, 0 }, (const real[]){ 1, 0 });
+        for (int k = 0; k < 3000; ++k) assert_ok(gvi_step(&st, (real)h));
+        const long double T = 3000*h, p = 1 + push*T, q = T*(1 + push*T/2);
+        assert_close(st.p[0], p, 2*EPS*p);
+        assert_close(st.q[0], q, 4*EPS*q);
+    }
+}
+
+/* Two coordinates of three are held, each by a row of its own, and the mass couples them all: 4 q_2'' = 2 */
+GVI_EACH(two_held, 3, rows(2))
+{
+    for (int row = 0; row < 2; ++row) {
+        x->g[row] = x->q[row];
+        x->jacobian[3*row + row] = 1;
+    }
+}
+
+TEST(rows_of_different_coordinates_meet_in_a_full_mass)
+{
+    static const real M[] = { 3, 0, 0, 1, 3, 0, 2, 1, 4 };
+    static real force[] = { 1, 0, 2 };
+    const gvi_effect effects[] = { { .kind = GVI_CONSTRAINT, .points = two_held, .rows = 2 },
+                                   { .kind = GVI_POTENTIAL, .points = constant, .user = force } };
+    for (int f = GVI_POSITIONS; f <= GVI_NEWTON; ++f) {
+        const gvi_desc desc = { .n = 3, .degree = 3, .effects = effects, .effect_count = 2, .formulation = (gvi_formulation)f,
+                                .mass = { .kind = GVI_MASS_DENSE, .matrix = M } };
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ 0, 0, 0 }, (const real[]){ 0, 0, 0 });
+        real lambda[2];
+        for (int k = 0; k < 8; ++k) assert_ok(gvi_step(&st, (real)0.25L));
+        assert_close(st.q[0], 0, 4*EPS);
+        assert_close(st.q[1], 0, 4*EPS);
+        assert_close(st.q[2], 1, 8*EPS);
+        assert_ok(gvi_multipliers(&st, lambda));             // M q'' - f
+        assert_close(lambda[0], 0, 32*EPS);
+        assert_close(lambda[1], (real)0.5L, 32*EPS);
+    }
+}
+
 /* A pendulum hung where its bob passes the origin: the terms of g are those of the joint, not of q.  theta is
    a cos(w t), w = 1 - a^2/16, to a^3/192; RATTLE at least does not leave the circle, or swing farther. */
 static int hung(const gvi_points *x, void *user)
@@ -613,10 +711,13 @@ TEST(a_joint_may_be_anywhere)
         }
     joint[0] = (real)0.1L; joint[1] = (real)0.2L; joint[2] = joint[0]*joint[0] + joint[1]*joint[1];
     joint[2] += EPS*joint[2];                     // as another order of rounding would make it
-    const gvi_desc desc = linkage_desc(&a, 6);
-    gvi_stepper st;
-    a.q[0] = a.q[1] = 0;
-    assert_ok(set_up(&st, &a, &desc));
+    a.effects[2] = a.effects[1];
+    for (a.count = 2; a.count <= 3; ++a.count) {  // and the row twice
+        const gvi_desc desc = linkage_desc(&a, 6);
+        gvi_stepper st;
+        a.q[0] = a.q[1] = 0;
+        assert_ok(set_up(&st, &a, &desc));
+    }
 }
 
 /* From h = 1e-6 to one that does not converge, which is said, with the state as it was */
@@ -769,6 +870,36 @@ TEST(a_row_is_wrong_that_is_off_by_a_512th)
         const gvi_desc desc = linkage_desc(&a, 4);
         gvi_stepper st;
         assert_status(set_up(&st, &a, &desc), k & 2 ? GVI_E_ARGUMENT : GVI_OK);
+    }
+}
+
+/* A parabola that ends at x = 1, where the state is: next to it and to one side there is nothing to look at */
+static int short_wire(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        const real X = x->q[k];
+        if (X > 1) return 1;
+        x->g[k] = x->q[x->stride + k] - X*X;
+        x->jacobian[k] = -2*X;
+        x->jacobian[x->stride + k] = *(const real *)user;
+    }
+    return 0;
+}
+
+TEST(a_wrong_jacobian_at_the_end_of_a_domain_is_refused)
+{
+    for (int k = 0; k < 2; ++k) {
+        linkage a = make_linkage(PENDULUM);
+        real entry = 1 + (real)k;
+        a.effects[1].points = short_wire;
+        a.effects[1].user = &entry;
+        a.q[0] = a.q[1] = 1;
+        a.v[0] = a.v[1] = 0;
+        const gvi_desc desc = linkage_desc(&a, 4);
+        gvi_stepper st;
+        const gvi_status status = set_up(&st, &a, &desc);
+        if (k) refused_with_its_row(&st, 0, "jacobian");
+        else assert_ok(status);
     }
 }
 
@@ -1042,7 +1173,7 @@ TEST(velocities_that_contradict_are_not_projected)
         assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
         const gvi_status status = gvi_project(&st, 0, q, v, NULL);
         assert_status(status, k ? GVI_E_CONSTRAINT : GVI_OK);
-        assert_true(v[0] == (k ? 5 : 1) && v[1] == 4);
+        assert_true(v[0] == (k ? 5 : 1) && v[1] == 4 && q[0] == (k ? (real)0.25L : 0) && q[1] == 3);
         if (k) assert_int_equal(st.fault.coordinate, 1);
         else assert_ok(gvi_start(&st, 0, q, v));
     }

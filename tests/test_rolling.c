@@ -327,6 +327,56 @@ TEST(slip_and_energy_stay_at_rounding)
     }
 }
 
+/* x' = cos t and y' = z x': x = sin t, z = t, y = t sin t + cos t - 1.  Two effects, each of which counts its points */
+AT_POINTS(conveyor)
+{
+    *(unsigned long long *)user += (unsigned)x->count;
+    for (int k = 0; k < x->count; ++k) x->jacobian[k] = 1, x->rate[k] = -cos(x->t[k]);
+    return 0;
+}
+
+AT_POINTS(follower)
+{
+    *(unsigned long long *)user += (unsigned)x->count;
+    for (int k = 0; k < x->count; ++k) x->jacobian[k] = -x->q[2*x->stride + k], x->jacobian[x->stride + k] = 1;
+    return 0;
+}
+
+TEST(two_that_roll_each_have_their_own_rows)
+{
+    for (int order = 0; order < 2; ++order) {
+        unsigned long long points[2] = { 0, 0 };
+        gvi_effect scene[] = { { .kind = GVI_NONHOLONOMIC, .points = conveyor, .rows = 1, .user = points },
+                               { .kind = GVI_NONHOLONOMIC, .points = follower, .rows = 1, .user = points + 1 } };
+        if (order) scene[0].points = follower, scene[1].points = conveyor;
+        const gvi_desc desc = { .n = 3, .degree = 8, .effects = scene, .effect_count = 2 };
+        const real zero[3] = { 0 }, v[3] = { 1, 0, 1 };
+        gvi_stepper st;
+        assert_ok(begin(&st, &desc, zero, v));
+        for (int k = 0; k < 8; ++k) assert_ok(gvi_step(&st, R(0.125)));
+        assert_close(st.q[0], sinl(1), 16*EPS);
+        assert_close(st.q[1], sinl(1) + cosl(1) - 1, 16*EPS);
+        assert_close(st.q[2], 1, 4*EPS);
+        for (int e = 0; e < 2; ++e) assert_int_equal(st.counters.effect[e], points[e]);
+    }
+}
+
+/* What a step has gathered of slip, when it fails, is no g of the next start */
+TEST(a_step_that_failed_leaves_no_slip_behind)
+{
+    unsigned long long points = 0;
+    const gvi_effect scene[] = { { .kind = GVI_NONHOLONOMIC, .points = conveyor, .rows = 1, .user = &points },
+                                 { .kind = GVI_NONHOLONOMIC, .points = follower, .rows = 1, .user = &points } };
+    const gvi_desc desc = { .n = 3, .degree = 4, .effects = scene, .effect_count = 2, .max_iterations = 2 };
+    real q[3] = { 0 }, v[3] = { 1, 0, 1 }, moved[2];
+    gvi_stepper st;
+    assert_ok(begin(&st, &desc, q, v));
+    assert_status(gvi_step(&st, 2), GVI_E_CONVERGENCE);
+    assert_ok(gvi_project(&st, 0, q, v, moved));
+    assert_true(moved[0] == 0 && q[0] == 0 && q[1] == 0);
+    assert_ok(gvi_start(&st, 0, q, v));
+}
+
 TEST(it_runs_back_as_it_came)
 {
     gvi_stepper st;

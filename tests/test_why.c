@@ -451,6 +451,25 @@ TEST(a_constraint_without_its_loop_is_found)
             }
 }
 
+/* One that is off at the first start is looked at when it is first on; looks are no step's work */
+TEST(a_constraint_is_looked_at_once_and_when_it_is_on)
+{
+    int fewer = 0;
+    const gvi_effect e[] = { { .kind = GVI_CONSTRAINT, .points = rod_loop, .rows = 1, .user = &fewer },
+                             { .kind = GVI_CONSTRAINT, .points = rod_alone, .rows = 1 } };
+    const gvi_desc d = { .n = 2, .degree = 4, .effects = e, .effect_count = 2 };
+    const real q[] = { 0, 1 }, v[] = { 1, 0 };
+    gvi_stepper st = new_stepper(&d);
+    assert_ok(gvi_switch(&st, 1, 0));
+    assert_ok(gvi_start(&st, 0, q, v));
+    const unsigned long long calls_of_a_start = st.counters.effect[0];
+    assert_ok(gvi_start(&st, 0, q, v));
+    assert_int_equal(st.counters.effect[0], 2*calls_of_a_start);
+    gvi_switch(&st, 1, 1);
+    says(&st, GVI_E_ARGUMENT, "constraint: fills not all points");
+    assert_int_equal(st.fault.effect, 1);
+}
+
 GVI_EACH(of_three, 3, f) { x->f[2] -= x->q[2]; }
 
 TEST(a_loop_over_points_that_is_missing_is_found)
@@ -465,10 +484,16 @@ TEST(a_loop_over_points_that_is_missing_is_found)
                 gvi_start(&st, 0, q, v);
                 says(&st, GVI_E_ARGUMENT, "fills not all points");
             }
+    static const real origin[8], away[8] = { 1, 1, 1, 1, 1, 1, 1, 1 };       // a force that is 0 where it starts
+    const gvi_effect e = { .points = no_loop };
+    const gvi_desc d = { .n = 8, .degree = 4, .effects = &e, .effect_count = 1 };
+    gvi_stepper st = new_stepper(&d);
+    gvi_start(&st, 0, origin, away);
+    says(&st, GVI_E_ARGUMENT, "fills not all points");
     for (int n = 1; n <= 4; ++n) {
-        const gvi_effect e = { .points = of_three };
-        const gvi_desc d = { .n = n, .effects = &e, .effect_count = 1 };
-        gvi_stepper st = new_stepper(&d);
+        const gvi_effect third = { .points = of_three };
+        const gvi_desc desc = { .n = n, .effects = &third, .effect_count = 1 };
+        st = new_stepper(&desc);
         gvi_start(&st, 0, q, v);
         if (n < 3) says(&st, GVI_E_CALLBACK, "larger n");
         else assert_ok(gvi_step(&st, (real)0.1));
