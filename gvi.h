@@ -7178,12 +7178,12 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
     gvi__add_force(st, ahead, d);
     gvi__over_inertia(st, d, 1, 1);
     if (!gvi__finite(gvi__norm1(n, d))) refused = off;
+    gvi__zero((size_t)m, ahead);
     gvi_real part = 1/GVI__HELD;
     for (int k = 0; k < 34 && refused < 0; ++k) {
         const gvi_real step = k % 2 ? -part : part;
         gvi__add_scaled(n, step, d, q, next);
         if (k % 2) part /= 8;
-        gvi__zero((size_t)(k % 2 ? 0 : m), ahead);
         if (gvi__evaluate_constraints(st, 1, 1, &t, next, G + m*n) != GVI_OK) continue;
         gvi__add_scaled(n, -1, q, next, next);     // as rounded
         for (int a = 0; a < m; ++a) {

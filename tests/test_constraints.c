@@ -1227,4 +1227,27 @@ TEST(a_light_body_under_a_heavy_load_ends_on_its_row)
     }
 }
 
+static int half_wire(const gvi_points *x, void *user)       /* q_1 = q_0, and no further than 1 */
+{
+    for (int k = 0; k < x->count; ++k) {
+        if (x->q[k] > 1) return 1;
+        x->g[k] = x->q[x->stride + k] - x->q[k];
+        x->jacobian[k] = -1;
+        x->jacobian[x->stride + k] = 1;
+    }
+    return (void)user, 0;
+}
+
+TEST(a_start_off_the_end_of_a_wire_is_refused)
+{
+    static const gvi_effect scene = { .kind = GVI_CONSTRAINT, .points = half_wire, .rows = 1 };
+    static const gvi_desc desc = { .n = 2, .degree = 3, .effects = &scene, .effect_count = 1 };
+    for (int k = 0; k < 3; ++k) {
+        gvi_stepper st;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        assert_status(gvi_start(&st, 0, (real[]){ 1, (real)k/2 }, (real[]){ -1, -1 }), k == 2 ? GVI_OK : GVI_E_CONSTRAINT);
+        if (k < 2) assert_int_equal(st.fault.coordinate, 0);
+    }
+}
+
 RUN_TESTS(NULL, NULL)

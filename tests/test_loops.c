@@ -375,7 +375,7 @@ GVI_EACH(weight, 4, f, value)
    in every step that is taken, however short, and the end is a row, not a sentence about h. */
 TEST(tiny_steps_before_a_change_point_are_right_or_refused)
 {
-    const real most = sizeof(real) == 4 ? (real)0.005L : 5e9L*EPS;
+    const real most = sizeof(real) == 4 ? (real)0.005L : (real)2e-10L;
     int named = 0;
     for (int run = 0; run < 24; ++run) {
         static real bars_of_1[4] = { 1, 1, 1, 1 };
