@@ -191,6 +191,61 @@ TEST(what_cannot_be_had_is_refused)
     const advise_options o = { .error = 1e-19, .seconds = 20, .counted = 1, .say = say };
     advise_result r;
     assert_int_equal(advise_find(&a, &o, &r), -1);
+    assert_non_null(strstr(r.why, "below rounding"));
+}
+
+/* What makes no sense is refused at once, with its own sentence; what would take for ever is broken off. */
+static long asked;
+GVI_EACH(counted, 1, f) { x->f[0] -= x->q[0], ++asked; }
+
+static int refused(const advise_case *a, const advise_options *o, const char *sentence)
+{
+    advise_result r;
+    asked = 0;
+    assert_int_equal(advise_find(a, o, &r), -1);
+    return strstr(r.why, sentence) != NULL;
+}
+
+TEST(nonsense_is_refused_with_its_sentence)
+{
+    static const double none[] = { NAN, INFINITY, 0, -1 };
+    const gvi_effect spring[] = { { .kind = GVI_POTENTIAL, .points = counted } };
+    const double q[] = { 1 }, v[] = { 0 };
+    const advise_case good = { .desc = { .n = 1, .effects = spring, .effect_count = 1 }, .q = q, .v = v, .horizon = 1000, .h = 1 };
+    const advise_options usual = { .error = 1e-6, .seconds = 20, .counted = 1, .say = say };
+    for (int i = 0; i < COUNT(none); ++i) {
+        advise_case a = good;
+        a.horizon = none[i];
+        assert_true(refused(&a, &usual, "horizon is not a finite number"));
+        a = good, a.h = none[i];
+        assert_true(refused(&a, &usual, "h, a step worth beginning with"));
+        advise_options o = usual;
+        o.error = none[i];
+        assert_true(refused(&good, &o, "error is not a finite number"));
+        o = usual, o.seconds = none[i];
+        if (i != 1) assert_true(refused(&good, &o, "seconds"));
+        if (i > 1) continue;
+        a = good, a.q = none + i;
+        assert_true(refused(&a, &usual, "q, v or p is not finite"));
+    }
+    static const double steps[] = { 1e-300, 1e-14, 1e-7 };               // 1e-14: t + h is t
+    for (int i = 0; i < COUNT(steps); ++i) {
+        advise_case a = good;
+        a.h = steps[i];
+        assert_true(refused(&a, &usual, "h is so short"));
+    }
+    advise_case a = good;
+    a.desc.n = 0;
+    assert_true(refused(&a, &usual, "n "));
+    a = good, a.v = NULL;
+    assert_true(refused(&a, &usual, "NULL"));
+    a = good, a.kicks_count = ADVISE_TABLES + 1;
+    assert_true(refused(&a, &usual, "kicks_count"));
+    assert_int_equal(asked, 0);
+    advise_options o = usual;                                  // 60 million steps in the first run, but for the clock
+    a = good, a.h = 1e-6, o.seconds = 1e-4;
+    assert_true(refused(&a, &o, "there is no reference"));
+    assert_true(asked < 20000000);
 }
 
 static int tables(void **state) { return baselines_begin(), 0; }
