@@ -43,19 +43,11 @@ typedef struct shooting {
 
 #define SHOOTING_ROOM(n, m) ((size_t)(m)*((size_t)(m) + 3) + 1 + 2*(size_t)(n))
 
-static inline int shooting_finite(int count, const gvi_real *x)
-{
-    for (int i = 0; i < count; ++i)
-        if (!(x[i] - x[i] >= 0)) return 0;
-    return 1;
-}
-
 /* Corrects q and p, [n] the start, so that the end is as wanted.  st: from gvi_init for
    the scene's desc.                                                            */
 static inline gvi_status shoot(const shooting *S, gvi_stepper *st, gvi_real *q, gvi_real *p)
 {
-    if (!S || !S->scene || !S->end || !S->room || !st || !q || !p) return GVI_E_ARGUMENT;
-    if (S->scene->directions < 1 || S->steps < 0) return GVI_E_ARGUMENT;
+    if (!S || !S->scene || !S->end || !S->room || S->steps < 0 || !st || !q || !p) return GVI_E_ARGUMENT;
     const int n = S->scene->plain.n, m = S->scene->directions;
     gvi_real *M = S->room, *c = M + m*m, *column = c + m, *pivot = column + m;
     gvi_real *dq = pivot + m + 1, *dp = dq + n;
@@ -71,7 +63,6 @@ static inline gvi_status shoot(const shooting *S, gvi_stepper *st, gvi_real *q, 
             for (int i = 0; i < m; ++i) M[i*m + j] = column[i];
             done = done && c[j] <= S->tolerance && -c[j] <= S->tolerance;
         }
-        if (!shooting_finite(m*m, M) || !shooting_finite(m, c)) return GVI_E_NON_FINITE;
         const gvi_status status = gvi_lu_factor(m, M, pivot);
         if (status) return status;
         gvi_lu_solve(m, M, pivot, c);
@@ -82,7 +73,8 @@ static inline gvi_status shoot(const shooting *S, gvi_stepper *st, gvi_real *q, 
                 dp[i] -= (S->dp ? S->dp[j*n + i] : (gvi_real)(i + n == j))*c[j];
             }
         }
-        if (!shooting_finite(2*n, dq)) return GVI_E_NON_FINITE;
+        for (int i = 0; i < 2*n; ++i)                          // as where c is not
+            if (!(dq[i] - dq[i] >= 0)) return GVI_E_NON_FINITE;
         for (int i = 0; i < n; ++i) q[i] = dq[i], p[i] = dp[i];
         if (done) return GVI_OK;
     }
