@@ -163,7 +163,7 @@ $(BUILD)/gvi-%.o: tests/compile/implementation.c $(BUILD)/flags | $(FIRST)
 	$(Q)$(COMPILE) $(if $(findstring small,$*),-Os) '-DGVI_REAL=$(if $(findstring long,$*),long double,$(*:-small=))' -c $< -o $@
 
 # What calls the library costs more to compile than to run, but for the nets of test_check: not optimised as the library is.
-$(patsubst %,$(BUILD)/tests/%,$(filter-out test_check test_points%,$(PROGRAMS))) $(EXAMPLES:%=$(BUILD)/examples/%): private CFLAGS = -O1
+$(patsubst %,$(BUILD)/tests/%,$(filter-out test_check,$(PROGRAMS))) $(EXAMPLES:%=$(BUILD)/examples/%): private CFLAGS = -O1
 $(BUILD)/tests/test_baselines: private CFLAGS = -O0
 
 .SECONDEXPANSION:
