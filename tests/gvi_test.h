@@ -98,7 +98,7 @@ check_between(long double lo, long double x, long double hi, const char *what, c
 }
 
 static __attribute__((unused)) void
-check_same(const gvi_real *a, const gvi_real *b, int count, const char *what, const char *file, int line)
+check_numbers(const gvi_real *a, const gvi_real *b, int count, const char *what, const char *file, int line)
 {
     for (int i = 0; i < count; ++i) {
         if (a[i] == b[i] && !signbit(a[i]) == !signbit(b[i])) continue;
@@ -114,7 +114,7 @@ check_same(const gvi_real *a, const gvi_real *b, int count, const char *what, co
 #define assert_between(lo, x, hi) \
     check_between((long double)(lo), (long double)(x), (long double)(hi), #x, __FILE__, __LINE__)
 /* The same bits but for the padding of a long double: the same numbers with the same signs; a NaN fails. */
-#define assert_same_numbers(a, b, count) check_same(a, b, count, #a " against " #b, __FILE__, __LINE__)
+#define assert_same_numbers(a, b, count) check_numbers(a, b, count, #a " against " #b, __FILE__, __LINE__)
 /* A status, by name in the message. */
 #define assert_status(call, wanted) do { \
     gvi_status got_ = (call); \
