@@ -245,7 +245,7 @@ static inline void check_extrapolate(struct check_run *c, int k, int depth, gvi_
     for (int j = 1; j <= depth && j < CHECK_DEPTH; ++j) {
         power *= 4;
         now[j] = now[j-1] + (now[j-1] - old[j-1])/(power - 1);
-        const gvi_real e = fmax(fabs(now[j] - now[j-1]), fabs(now[j] - old[j-1])) + noise;
+        const gvi_real a = fabs(now[j] - now[j-1]), b = fabs(now[j] - old[j-1]), e = (a > b ? a : b) + noise;
         if (e < *err) *err = e, *best = now[j];
     }
     memcpy(old, now, CHECK_DEPTH*sizeof *old);
