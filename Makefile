@@ -165,7 +165,8 @@ $(BUILD)/gvi-%.o: tests/compile/implementation.c $(BUILD)/flags | $(FIRST)
 
 # What calls the library costs more to compile than to run: not optimised as the library is.
 $(PROGRAMS:%=$(BUILD)/tests/%) $(EXAMPLES:%=$(BUILD)/examples/%): private CFLAGS = -O1
-$(BUILD)/tests/test_baselines: private CFLAGS = -O0
+$(patsubst %,$(BUILD)/tests/test_%,api baselines control effects prices tangent) \
+$(patsubst %,$(BUILD)/examples/%,14_check_derivatives 15_own_scene 25_bricard): private CFLAGS = -O0
 
 .SECONDEXPANSION:
 $(PROGRAMS:%=$(BUILD)/tests/%): $(BUILD)/tests/%: $$(firstword $$(subst -, ,tests/$$*)).c $$(LIBRARY) | cmocka

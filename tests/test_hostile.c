@@ -10,7 +10,7 @@
 #include "fuzz/fuzz_scene.c"
 #include <limits.h>
 
-enum { SCENES = 30000, BYTES = 800 };
+enum { SCENES = 20000, BYTES = 800 };
 
 TEST(whatever_a_scene_does_every_call_ends_well)
 {
