@@ -256,7 +256,7 @@ static real pendulum_energy(const real *q, const real *p)
    function of the state, of size C h^6.  Later it cannot be larger, except by the luck of a state not visited before. */
 TEST(the_energy_of_a_chaotic_pendulum_stays_in_its_band)
 {
-    enum { STEPS = 60000 };
+    enum { STEPS = 40000 };
     static const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .point = weights } };
     const gvi_desc desc = { .n = 2, .degree = 3, .effects = effects, .effect_count = 1, .mass = RELATIVE_ANGLES };
     gvi_stepper st = new_motion(&desc, 0, (const real[]){ 2, 1 }, (const real[]){ 0, 0 });
