@@ -14,7 +14,7 @@
 
      coordinates   of a body with mass: x (3), e (4); of one that turns about a fixed point,
                    mass = 0: e (4) alone.  Bodies one after the other; n is their sum
-     refused       by the callbacks (GVI_E_CALLBACK), body_wrong says why: mass below 0, moments of 0
+     refused       by the mass (GVI_E_CALLBACK), body_wrong says why: mass below 0, moments of 0
                    or less, one above the sum of the others
      |e| = 1       held to rounding by one more row of the scene, body_unit(&scene); then with
                    .mass.velocity = NULL.  The same curves: each row here serves both ways
@@ -190,14 +190,11 @@ static inline const char *body_wrong(const body *b)
     return NULL;
 }
 
-/* n of the scene; 0 if a body is wrong.  The mass refuses another (GVI_E_CALLBACK).   */
+/* n of the scene; the mass refuses another (GVI_E_CALLBACK).                        */
 static inline int body_coordinates(const bodies *all)
 {
     int n = 0;
-    for (int j = 0; j < all->count; ++j) {
-        if (body_wrong(all->body + j)) return 0;
-        n += all->body[j].mass > 0 ? 7 : 4;
-    }
+    for (int j = 0; j < all->count; ++j) n += all->body[j].mass > 0 ? 7 : 4;
     return n;
 }
 
@@ -206,6 +203,8 @@ static inline int body_mass_points(const gvi_points *x, void *user)
     const bodies *all = (const bodies *)user;
     const int n = x->n;
     if (n != body_coordinates(all)) return 1;
+    for (int j = 0; j < all->count; ++j)
+        if (body_wrong(all->body + j)) return 1;
     for (int i = 0; i < n*n; ++i)
         for (int k = 0; k < x->count; ++k) x->mass[i*x->stride + k] = 0;
     for (int j = 0, row = 0; j < all->count; row += 4, ++j) {
