@@ -66,7 +66,7 @@ int main(void)
     for (double error = 1e-6; error > 1e-10; error /= 1000) {
         const advise_options options = { .error = error, .seconds = 2, .counted = 1 };
         advise_result best;
-        if (advise_find(&mine, &options, &best)) return puts("no setting has that error"), 1;
+        if (advise_find(&mine, &options, &best)) return puts(best.why), 1;
         printf("for %.0e at t = %g: %s, %ld steps of %.3g\n", error, mine.horizon,
                advise_name(&best.setting, line, sizeof line), best.steps, best.h);
     }

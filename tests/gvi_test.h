@@ -97,12 +97,24 @@ check_between(long double lo, long double x, long double hi, const char *what, c
     _fail(file, line);
 }
 
+static __attribute__((unused)) void
+check_numbers(const gvi_real *a, const gvi_real *b, int count, const char *what, const char *file, int line)
+{
+    for (int i = 0; i < count; ++i) {
+        if (a[i] == b[i] && !signbit(a[i]) == !signbit(b[i])) continue;
+        print_error("%s:%d: %s, number %d\n  %.21Lg\n  %.21Lg\n", file, line, what, i, (long double)a[i], (long double)b[i]);
+        _fail(file, line);
+    }
+}
+
 /* |a - b| <= tol; a NaN fails. */
 #define assert_close(a, b, tol) \
     check_close((long double)(a), (long double)(b), (long double)(tol), #a " against " #b, __FILE__, __LINE__)
 /* lo <= x <= hi; a NaN fails. */
 #define assert_between(lo, x, hi) \
     check_between((long double)(lo), (long double)(x), (long double)(hi), #x, __FILE__, __LINE__)
+/* The same bits but for the padding of a long double: the same numbers with the same signs; a NaN fails. */
+#define assert_same_numbers(a, b, count) check_numbers(a, b, count, #a " against " #b, __FILE__, __LINE__)
 /* A status, by name in the message. */
 #define assert_status(call, wanted) do { \
     gvi_status got_ = (call); \

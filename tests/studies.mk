@@ -7,12 +7,12 @@
 # -- steps of `make test` and `make check`; each can be run alone
 
 #: headers      gvi.h through every compiler, standard, type and linkage there is, no warning
-headers-quick: $(addprefix $(BUILD)/gvi-,float.o double.o long.o)
+headers-quick: $(FLOAT_LIBRARY) $(addprefix $(BUILD)/gvi-,double.o long.o)
 headers headers-quick: | $(FIRST)
-	$(STEP) $@ sh tests/tools/headers.sh $(BUILD) $(if $(findstring quick,$@),--quick)
+	$(STEP) $@ sh tests/tools/headers.sh $(BUILD) $(if $(findstring quick,$@),--quick) $^
 
 #: symbols      exports only gvi_, imports only libm, no data, no recursion
-symbols: $(addprefix $(BUILD)/gvi-,float.o double.o long.o)
+symbols: $(FLOAT_LIBRARY) $(addprefix $(BUILD)/gvi-,double.o long.o)
 	$(STEP) $@ sh tests/tools/symbols.sh $(BUILD) $^
 
 #: docs-check   the code in README, guide and header is compiled and its output compared

@@ -379,6 +379,11 @@ TEST(scenes_without_an_adjoint_are_refused)
     --A.room_length;
     assert_status(adjoint_start(&A, &ad, 0, q0, p0, end_q, end_p), GVI_E_MEMORY);
     ++A.room_length;
+    for (int i = 0; i < 4; ++i)
+        assert_status(adjoint_start(&A, &ad, 0, i == 0 ? NULL : q0, i == 1 ? NULL : p0, i == 2 ? NULL : end_q, i == 3 ? NULL : end_p),
+                      GVI_E_ARGUMENT);
+    A.every = 1, A.kept_length = 100;
+    assert_status(adjoint_keep(&A, &ad), GVI_E_ARGUMENT);                     /* nowhere to keep it */
 
     real kept[2*(2*N + 1)];                      /* two states, not three */
     A.kept = kept, A.kept_length = COUNT(kept), A.every = 1;

@@ -277,6 +277,53 @@ TEST(a_scene_with_another_number_of_coordinates_is_refused)
     }
 }
 
+/* No such body; a flat one is, also with moments of three digits, and in float. */
+TEST(bodies_that_cannot_be_are_refused)
+{
+    static const body wrong[] = { { -1, { 1, 1, 1 } }, { NAN, { 1, 1, 1 } }, { INFINITY, { 1, 1, 1 } }, { 1, { 1, 0, 1 } },
+        { 1, { 1, 1, -1 } }, { 0, { NAN, 1, 1 } }, { 0, { INFINITY, 1, 1 } }, { 1, { 1, 1, R(2.01) } }, { 1, { R(0.1), 3, 1 } },
+        { 0, { 5, 1, 3 } } };
+    static const body right[] = { { 0, { R(0.0014), R(0.0164), R(0.0178) } }, { 1, { 1, 1, 2 } }, { 1, { R(1.004), R(1.004), R(2.009) } } };
+    real q[7] = { 0, 0, 0, 1, 0, 0, 0 };
+    const real v[7] = { 0 };
+    for (int i = 0; i < COUNT(wrong) + COUNT(right); ++i) {
+        const body *b = i < COUNT(wrong) ? wrong + i : right + i - COUNT(wrong);
+        const bodies one = { b, 1 };
+        const gvi_effect unit[] = { body_unit(&one) };
+        for (int k = 0; k < 3; ++k) {                        // with mass.velocity, without, with |e| held
+            gvi_desc desc = { .n = b->mass > 0 ? 7 : 4, .mass = body_mass(&one) };
+            if (k > 0) desc.mass.velocity = NULL;
+            if (k > 1) desc.effects = unit, desc.effect_count = 1;
+            gvi_stepper st = new_stepper(&desc);
+            assert_status(gvi_start(&st, 0, q + (desc.n == 4 ? 3 : 0), v), i < COUNT(wrong) ? GVI_E_CALLBACK : GVI_OK);
+        }
+        assert_true(!body_wrong(b) == (i >= COUNT(wrong)));
+    }
+}
+
+/* Wheels, joints, gears and ropes of bodies that the scene has not, or that cannot be. */
+TEST(rows_that_cannot_be_are_refused)
+{
+    static const body rock[] = { { 1, { 1, 1, 1 } } };
+    static const bodies one = { rock, 1 };
+    static const body_round wheel[] = { { 1, 1, { 0, 1, 0 } }, { -1, 1, { 0, 1, 0 } }, { 0, 0, { 0, 1, 0 } },
+                                        { 0, -1, { 0, 1, 0 } }, { 0, NAN, { 0, 1, 0 } } };
+    static const body_rope rope = { { BODY_WORLD, BODY_WORLD, 7 }, { { 0 } }, 1 };
+    const real q[14] = { 0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0 }, v[7] = { 0 }, z[3] = { 0, 0, 1 };
+    const body_joint far = body_joined(BODY_BALL, q, 7, BODY_WORLD, z, z, NULL), near = body_joined(BODY_HINGE, q, 0, BODY_WORLD, z, z, NULL),
+                     back = body_joined(BODY_BALL, q, BODY_WORLD, 7, z, z, NULL);
+    const body_gear gear[] = { { { &near, &near }, { 0, 1 } }, { { &near, &near }, { 1, 0 } }, { { &near, &far }, { 1, 1 } } };
+    gvi_effect rows[16] = { body_pulls(&rope), body_holds(&far), body_holds(&back), body_meshes(gear), body_meshes(gear + 1),
+                            body_meshes(gear + 2) };
+    for (int i = 0; i < COUNT(wheel); ++i) rows[6 + 2*i] = body_touches(wheel + i), rows[7 + 2*i] = body_rolls(wheel + i);
+    for (int i = 0; i < COUNT(rows); ++i) {
+        gvi_desc desc = { .n = 7, .mass = body_mass(&one), .effects = rows + i, .effect_count = 1 };
+        desc.mass.velocity = NULL;
+        gvi_stepper st = new_stepper(&desc);
+        assert_status(gvi_start(&st, 0, q, v), GVI_E_CALLBACK);
+    }
+}
+
 TEST(the_mass_is_consistent)
 {
     const gvi_mass mass = body_mass(&two);

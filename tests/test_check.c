@@ -228,11 +228,15 @@ static void assert_found(check_what what, int e, const char *entry, int i, int j
     fail();
 }
 
-/* The scene with a slip in it, checked */
+AT_POINTS(nothing) { return 0; }
+
+/* The scene with a slip in it, checked; other effects, which are right, are left out of what takes time */
 static void slip_in(const char *name, int e, slip_kind kind, const char *entry, int i, int j, double factor)
 {
     build(name);
     plant(e, kind, entry, i, j, factor);
+    for (int k = 0; k < made.desc.effect_count; ++k)
+        if (e >= 0 && k != e) made.effects[k] = (gvi_effect){ .kind = GVI_FORCE, .points = nothing };
     check();
 }
 
@@ -684,6 +688,62 @@ TEST(scenes_that_cannot_be_are_refused)
     assert_int_equal(check(), GVI_E_ARGUMENT);
     made.desc.n = -1;
     assert_int_equal(check(), GVI_E_ARGUMENT);
+}
+
+/* Numbers that are none are findings, wherever they come from: t, q, v, g, a value, a refusal. */
+AT_POINTS(refuses) { return 1; }
+AT_POINTS(no_value)
+{
+    for (int k = 0; k < x->count; ++k) x->value[k] = NAN;
+    return 0;
+}
+
+AT_POINTS(weight_force) { return x->f[0] -= 1, 0; }             // whatever q and v are
+AT_POINTS(no_row)
+{
+    for (int k = 0; k < x->count; ++k) x->g[k] = NAN, x->jacobian[k] = 1;
+    return 0;
+}
+
+AT_POINTS(unit_mass)
+{
+    for (int k = 0; k < x->count; ++k) x->mass[k] = 1;
+    return 0;
+}
+
+TEST(what_is_not_finite_is_found)
+{
+    static const double none[] = { NAN, INFINITY, -INFINITY };
+    static const char *const name[] = { "t", "q", "v" };
+    const gvi_effect weight = { .kind = GVI_POTENTIAL, .points = weight_force };
+    for (int i = 0; i < COUNT(none)*3; ++i) {
+        build_own(1, weight, (gvi_mass){ 0 });
+        double *at = i/COUNT(none) == 1 ? made.q : made.v, t = 0;
+        if (i < COUNT(none)) at = &t;
+        *at = none[i % COUNT(none)];
+        assert_int_equal(check_scene(&made.desc, t, made.q, made.v, &report), 1);
+        assert_found(CHECK_STATE, GVI_FAULT_NONE, name[i/COUNT(none)], i < COUNT(none) ? -1 : 0, -1);
+        check_line(list, line, sizeof line);
+        assert_non_null(strstr(line, "the state: "));
+        assert_non_null(strstr(line, "is not finite"));
+    }
+    build_own(1, (gvi_effect){ .kind = GVI_POTENTIAL, .points = weight_force, .value = refuses }, (gvi_mass){ 0 });
+    check();
+    assert_found(CHECK_REFUSED, 0, "-dV/dq", 0, -1);
+    made.effects[0].value = no_value;
+    check();
+    assert_found(CHECK_REFUSED, 0, "-dV/dq", 0, -1);
+    build_own(1, (gvi_effect){ .kind = GVI_CONSTRAINT, .points = no_row, .rows = 1 }, (gvi_mass){ 0 });
+    check();
+    assert_found(CHECK_REFUSED, 0, "dg/dq", 0, 0);
+    build_own(1, weight, (gvi_mass){ .kind = GVI_MASS_POSITION, .points = unit_mass, .gradient = refuses });
+    check();
+    assert_found(CHECK_REFUSED, GVI_FAULT_MASS, "gradient", -1, -1);
+    build_own(1, weight, (gvi_mass){ 0 });
+    assert_int_equal(check_scene(NULL, 0, made.q, made.v, &report), GVI_E_ARGUMENT);
+    assert_int_equal(check_scene(&made.desc, 0, NULL, made.v, &report), GVI_E_ARGUMENT);
+    assert_int_equal(check_scene(&made.desc, 0, made.q, NULL, &report), GVI_E_ARGUMENT);
+    assert_int_equal(check_scene(&made.desc, 0, made.q, made.v, NULL), GVI_E_ARGUMENT);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -110,4 +110,71 @@ TEST(shooting_that_cannot_arrive_is_refused)
     assert_status(shoot(&S, &st, q, p), GVI_E_CONVERGENCE);
 }
 
+/* x'' = -x: the start whose motion ends at (1, 1/2) */
+AT_POINTS(spring)
+{
+    for (int k = 0; k < x->count; ++k) x->f[k] -= x->q[k];
+    return 0;
+}
+
+static int spring_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
+{
+    for (int k = 0; k < x->count; ++k) d->f[k] -= d->q[k];
+    return 0;
+}
+
+static void meet(const double *q, const double *p, const double *dq, const double *dp, double *c, void *user)
+{
+    const double *spoil = user;
+    c[0] = dq ? *dq*spoil[0] : (*q - 1)*spoil[1];
+    c[1] = dq ? *dp : *p - 0.5;
+}
+
+TEST(shooting_leaves_the_start_as_it_was_where_the_end_is_not_finite)
+{
+    static double work[SHOOTING_ROOM(1, 2)], room[TANGENT_ROOM(1, 2)], good[2] = { 1, 1 };
+    static const double none[] = { NAN, INFINITY };
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = spring } };
+    tangent T = { .plain = { .n = 1, .degree = 8, .effects = scene, .effect_count = 1 }, .product = { spring_product },
+                  .directions = 2, .room = room, .room_length = COUNT(room) };
+    assert_ok(tangent_scene(&T));
+    gvi_stepper st = new_stepper(&T.desc);
+    const shooting usual = { .scene = &T, .h = 0.25, .steps = 8, .end = meet, .user = good, .tolerance = 1e-12, .most = 5,
+                             .room = work };                    // dq, dp: NULL, the unit directions
+    double q = 0.3, p = 0.4;
+    assert_ok(shoot(&usual, &st, &q, &p));
+    assert_close(q, cos(2) - sin(2)/2, 32*EPS);
+    assert_close(p, sin(2) + cos(2)/2, 32*EPS);
+
+    for (int i = 0; i < 2*COUNT(none); ++i) {
+        double bad[2] = { 1, 1 };
+        shooting S = usual;
+        bad[i % 2] = none[i/2];
+        S.user = bad;
+        S.most = 1 + i/2;
+        q = 0.3, p = 0.4;
+        assert_status(shoot(&S, &st, &q, &p), GVI_E_NON_FINITE);
+        assert_true(q == 0.3 && p == 0.4);
+    }
+    double tiny[2] = { DBL_MIN, DBL_MAX };                      // a correction that overflows
+    shooting S = usual;
+    S.user = tiny;
+    assert_status(shoot(&S, &st, &q, &p), GVI_E_NON_FINITE);
+    assert_true(q == 0.3 && p == 0.4);
+
+    for (int i = 0; i < 5; ++i) {
+        S = usual;
+        if (i == 0) S.end = NULL;
+        if (i == 1) S.room = NULL;
+        if (i == 2) S.scene = NULL;
+        if (i == 3) S.steps = -1;
+        if (i == 4) T.directions = 0;
+        assert_status(shoot(&S, &st, &q, &p), GVI_E_ARGUMENT);
+        T.directions = 2;
+    }
+    assert_status(shoot(&usual, &st, NULL, &p), GVI_E_ARGUMENT);
+    assert_status(shoot(&usual, NULL, &q, &p), GVI_E_ARGUMENT);
+    assert_status(tangent_start(&T, &st, 0, NULL, &p, NULL, NULL), GVI_E_ARGUMENT);
+}
+
 RUN_TESTS(NULL, NULL)

@@ -450,4 +450,35 @@ TEST(masses_are_consistent)
     assert_close(kinetic(&m, 2, q, v, p), x*x + y*y + (X*X + Y*Y)/2, 32*(real)EPS);
 }
 
+/* A rest length of NaN is no rest length of 0, and one below 0 is what the value says */
+TEST(parameters_that_cannot_be_are_refused)
+{
+    const real q[6] = { 0, 0, 0, 3, 0, 4 };
+    for (int i = 0; i < 2; ++i) {
+        const struct spring bond = { 0, 1, 2, i ? -1 : (real)NAN };
+        const struct springs pair = { { 0, 2, 3 }, &bond, 1, 6 };
+        const struct tether hold = { 1, 2, bond.rest, { 0, 0, 0 } };
+        const struct tethers held = { { 0, 2, 3 }, &hold, 1, 6 };
+        const gvi_effect effects[] = { springs(&pair), tethers(&held) };
+        for (int k = 0; k < 2; ++k) {
+            real f[6] = { 0 }, fq[36] = { 0 };
+            const gvi_points x = { .n = 6, .count = 1, .stride = 1, .q = q, .f = f };
+            assert_int_equal(effects[k].points(&x, effects[k].user), 0);
+            assert_int_equal(effects[k].hessian(0, q, NULL, fq, NULL, NULL, effects[k].user), 0);
+            if (i) assert_close(f[5], -2*(5 + 1)*(real)4/5, 16*(real)EPS);          // k (r - rest), r = 5
+            if (i) assert_close(fq[35], -2 + 2*-1*((real)1/5 - (real)16/125), 16*(real)EPS);
+            else assert_true(f[5] != f[5] && fq[35] != fq[35]);
+        }
+    }
+    static const struct two_links wrong[] = { { 0, 1, 0 }, { -1, -1, 0 }, { 1, 1, 1 }, { 1, 1, -2 }, { 1, (real)NAN, 0 } };
+    static const struct top tops[] = { { 0, 1 }, { 1, 0 }, { -1, 1 }, { 1, -1 }, { (real)NAN, 1 }, { 1, (real)NAN } };
+    for (int i = 0; i < 2*(COUNT(wrong) + COUNT(tops)); ++i) {
+        const int k = i/2, is_top = k >= COUNT(wrong);
+        gvi_desc desc = { .n = is_top ? 3 : 2, .mass = is_top ? top(tops + k - COUNT(wrong)) : two_links(wrong + k) };
+        if (i % 2) desc.mass.velocity = NULL;
+        gvi_stepper st = new_stepper(&desc);
+        assert_status(gvi_start(&st, 0, q + 3, (real[]){ 1, 1, 1 }), GVI_E_CALLBACK);
+    }
+}
+
 RUN_TESTS(NULL, NULL)

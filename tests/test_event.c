@@ -320,4 +320,27 @@ TEST(impacts_that_pile_up_end_in_a_status)
     }
 }
 
+/* Steps that would never come there, and arrays that are not there */
+TEST(what_makes_no_sense_is_refused)
+{
+    static const real hs[] = { R(1e-30), R(-1e-30), R(1e-16), 0 };
+    for (int i = 0; i < COUNT(hs); ++i) {
+        gvi_stepper *st = cosine(8, 0);
+        assert_status(output_at(st, hs[i], hs[i] > 0 ? 2 : -2, q, NULL, NULL), GVI_E_ARGUMENT);
+        assert_int_equal((int)st->counters.steps, 0);
+    }
+    real noon = 1;
+    gvi_stepper *st = cosine(4, 0);
+    assert_ok(gvi_step(st, 2));
+    for (int i = 0; i < 4; ++i) {
+        event e = of(clock_hand, &noon);
+        if (i == 0) e.g = NULL;
+        if (i == 1) e.q = NULL;
+        if (i == 2) e.v = NULL;
+        if (i == 3) e.p = NULL;
+        assert_int_equal(event_next(&e, st), GVI_E_ARGUMENT);
+    }
+    assert_int_equal(event_next(NULL, st), GVI_E_ARGUMENT);
+}
+
 RUN_TESTS(NULL, NULL)

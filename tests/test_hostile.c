@@ -6,10 +6,11 @@
 #define PAD 16
 #include "gvi_test.h"
 #include "tools/ensemble.h"
+#include "tools/animate.h"
 #include "fuzz/fuzz_scene.c"
 #include <limits.h>
 
-enum { SCENES = 30000, BYTES = 800 };
+enum { SCENES = 20000, BYTES = 800 };
 
 TEST(whatever_a_scene_does_every_call_ends_well)
 {
@@ -59,6 +60,32 @@ TEST(an_ensemble_ends_whatever_its_chunks)
         ensemble_run(COUNT(result), chunks[i], sizeof result[0], count_runs, &runs, result);
         assert_int_equal(runs, COUNT(result));
         for (int k = 0; k < COUNT(result); ++k) assert_int_equal(result[k], k + 1);
+    }
+}
+
+/* Ticks that are closer than doubles are, and films of nothing */
+TEST(pictures_end_whatever_they_show)
+{
+    static const double x[] = { 0, 1 }, steps[] = { 0, -1, 1e-300, 1e-6, NAN, INFINITY },
+                        heights[] = { 0, 9e15, -9e15, 1e17, 1e300, DBL_MAX, 5e-324, NAN, INFINITY };
+    for (int i = 0; i < COUNT(heights); ++i)
+        for (int k = 0; k < 4*COUNT(steps); ++k) {
+            const double y[] = { heights[i], k & 1 ? -heights[i] : heights[i] };
+            const svg_line line = { "", x, y, 2 };
+            const svg_plot plot = { .title = "", .x_label = "", .y_label = "", .log_y = k & 2, .lines = &line, .line_count = 1,
+                                    .x_step = steps[k/4] };
+            assert_int_equal(svg_write("/dev/null", &plot), 0);
+        }
+    const animation film = { .title = "", .caption = "", .points = 1, .samples = 2, .xy = (double[]){ 0, 0, 1, 1 }, .t = x, .every = 1,
+                             .seconds = 1, .sizes = x, .plots = { { .title = "", .x_label = "" }, { .title = "", .x_label = "" } } };
+    assert_int_equal(animate_write("/dev/null", &film), 0);
+    for (int i = 0; i < 5; ++i) {
+        animation none = film;
+        if (i == 0) none.every = 0;
+        if (i == 1) none.samples = 0;
+        if (i == 2) none.points = 0;
+        if (i > 2) none.seconds = i == 3 ? 0 : NAN;
+        assert_int_equal(animate_write("/dev/null", &none), -1);
     }
 }
 

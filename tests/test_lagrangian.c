@@ -354,6 +354,7 @@ LAGRANGIAN(massless, 2) { return v[0]*v[0]/2 + v[1] - q[0]*q[0] - q[1]*q[1]; }
 LAGRANGIAN(one_direction, 2) { return (v[0] + v[1])*(v[0] + v[1])/2 - q[0]*q[0] - q[1]*q[1]; }
 LAGRANGIAN(not_there, 2) { return (v[0]*v[0] + v[1]*v[1])/2 + log(q[0] - 5); }
 LAGRANGIAN(steep, 2) { return (v[0]*v[0] + v[1]*v[1])/2 + sqrt(q[1]); }
+LAGRANGIAN(nowhere, 2) { return v[0]*v[0] + v[1]*v[1]; }
 LAGRANGIAN(large, LAGRANGIAN_MOST + 1) { return v[0]*v[0]; }
 
 TEST(refusals_say_why)
@@ -363,6 +364,13 @@ TEST(refusals_say_why)
     assert_refused(&one_direction, some_q, some_v, "L has no kinetic energy in some direction");
     assert_refused(&not_there, some_q, some_v, "L is not finite at the start");
     assert_refused(&steep, zeros, some_v, "dL/dq[1] is not finite at the start");
+    assert_refused(&nowhere, NULL, some_v, "the start is NULL or not finite: t, q, v");
+    assert_refused(&nowhere, some_q, NULL, "the start is NULL");
+    for (int i = 0; i < 2; ++i) {
+        const real none[] = { 0, i ? (real)NAN : (real)INFINITY };
+        assert_refused(&nowhere, none, some_v, "the start is NULL or not finite");
+        assert_refused(&nowhere, some_q, none, "the start is NULL or not finite");
+    }
     assert_refused(&large, some_q, some_v, "n is 33, there is room for 32: define LAGRANGIAN_MOST before lagrangian.h");
 }
 

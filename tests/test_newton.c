@@ -208,10 +208,10 @@ TEST(a_step_that_fails_leaves_everything_as_it_was)
     begin(&copy, &desc, spare, sizeof spare);
     go(&copy, (gvi_real)0.001, 1);
     assert_status(gvi_step(&st, (gvi_real)0.5), GVI_E_CONVERGENCE);
-    assert_memory_equal(st.q, copy.q, MOST*sizeof *st.q);
-    assert_memory_equal(st.p, copy.p, MOST*sizeof *st.p);
-    assert_memory_equal(st.q_low, copy.q_low, MOST*sizeof *st.q);
-    assert_memory_equal(st.p_low, copy.p_low, MOST*sizeof *st.p);
+    assert_same_numbers(st.q, copy.q, MOST);
+    assert_same_numbers(st.p, copy.p, MOST);
+    assert_same_numbers(st.q_low, copy.q_low, MOST);
+    assert_same_numbers(st.p_low, copy.p_low, MOST);
     go(&st, (gvi_real)0.001, 1);                  // a failure ends what is kept of derivatives
     go(&copy, (gvi_real)0.001, 1);
     assert_close(apart(&st, &copy), 0, 4*EPS);
@@ -264,7 +264,7 @@ TEST(partial_steps_are_steps)
     memcpy(end, st.q, sizeof end);
     begin(&half, &desc, spare, sizeof spare);
     go(&half, (gvi_real)0.0625, 3);
-    assert_memory_equal(end, half.q, sizeof end);
+    assert_same_numbers(end, half.q, COUNT(end));
 }
 
 /* A point at a spring of length 1 and frequency 64, h omega = 6.4, as in everywhere/bits.c */

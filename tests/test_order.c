@@ -127,7 +127,7 @@ static int misses;
 
 static void expect_slope(const char *what, const problem *pb, const method *m, error_fn *error, real lo, real hi)
 {
-    real got = slope(error, pb, m, hi, 64);
+    real got = slope(error, pb, m, hi, 32);
     if (lo - 0.2L <= got && got <= hi + 0.2L) return;
     ++misses;
     print_error("%s, %s, s = %d, rule %d with %d points, %s: slope %.3Lf, not within 0.2 of [%.1Lf, %.1Lf]\n",

@@ -467,7 +467,7 @@ TEST(negative_directions_are_as_many_as_conjugate_points)
     const method m = { 16, { 0 } };
     for (int i = 0; i < COUNT(cases); ++i) {
         const problem *pb = &problems[cases[i].problem];
-        real y[MAX_Y], last, step = 0.05L;
+        real y[MAX_Y], last, step = 0.0625L;
         int count = 0, asked = 0;
         start_state(pb, cases[i].start, y);
         last = jacobi_determinant(pb, 0, y, step);

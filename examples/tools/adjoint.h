@@ -139,7 +139,7 @@ static inline gvi_status adjoint_keep(adjoint *A, const gvi_stepper *st)
 {
     const int n = A->plain.n;
     const size_t size = 2*(size_t)n + 1;
-    if (A->every < 1) return GVI_E_ARGUMENT;
+    if (A->every < 1 || !A->kept) return GVI_E_ARGUMENT;
     if (++A->step % A->every) return GVI_OK;
     const size_t at = (size_t)(A->step/A->every)*size;
     if (at + size > A->kept_length) return GVI_E_MEMORY;
@@ -157,6 +157,7 @@ static inline gvi_status adjoint_start(adjoint *A, gvi_stepper *ad, gvi_real t, 
     const int n = A->plain.n, r = ad->r;
     const gvi_rule *rule = &A->plain.rule;
     gvi_real *z = A->room + TANGENT_ROOM(n, 1), *c = z + 6*n, *b = c + r;
+    if (!q || !p || !by_q || !by_p) return GVI_E_ARGUMENT;
     if (A->room_length < ADJOINT_ROOM(n, r)) return GVI_E_MEMORY;
     if (rule->kind == GVI_GAUSS) gvi_gauss(r, c, b);
     else if (rule->kind == GVI_LOBATTO) gvi_lobatto(r, c, b);

@@ -114,8 +114,9 @@ static int find_for_time(const advise_case *a, advise_options *o, double time, a
         last_cost = r->cost;
         error = fmin(fmax(error*pow(0.9*time/r->cost, 1/power), 1e-12), 1e-2);
     }
+    if (best.cost >= HUGE_VAL) best.why = r->why ? r->why : "the time is too short";
     *r = best;
-    return best.cost < HUGE_VAL ? 0 : -1;
+    return best.why ? -1 : 0;
 }
 
 static void print_table(const char *name, int count, const double *x)
@@ -160,7 +161,7 @@ int main(int argc, char **argv)
     if (o.time > 0) wanted.seconds = fmax(o.trials, 2*o.time);
     printf("%s to t = %g\n", argv[1], a.horizon);
     if (o.time > 0 ? find_for_time(&a, &wanted, o.time, &r) : advise_find(&a, &wanted, &r)) {
-        printf("nothing found: the error is below rounding, or the time too short\n");
+        printf("nothing found: %s\n", r.why);
         return 1;
     }
     print_result(&a, &r);

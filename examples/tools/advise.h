@@ -60,7 +60,8 @@ typedef struct advise_case {
 
 typedef struct advise_options {
     double error;                      /* wanted at the horizon                */
-    double seconds;                    /* of CPU time, for any single run: 2   */
+    double seconds;                    /* of CPU time, for any single run: 2;  */
+                                       /* after eight times that it is broken off */
     int    counted;                    /* cost is counted, not measured        */
     void (*say)(const char *line);     /* or NULL                              */
 } advise_options;
@@ -82,6 +83,7 @@ typedef struct advise_result {
     int    proved;                     /* measured there, not extrapolated     */
     int    runs;
     double spent;                      /* cost of all runs                     */
+    const char *why;                   /* nothing was found: a sentence        */
 } advise_result;
 
 struct advise_run {
@@ -167,6 +169,7 @@ static inline struct advise_run advise_go(struct advise *x, const advise_setting
 {
     gvi_desc d = advise_desc(x->a, s);
     const int n = d.n, repeats = x->o->counted ? 1 : 3;
+    int late = 0;
     struct advise_run run = { GVI_OK, 0, x->z, HUGE_VAL, HUGE_VAL };
     gvi_stepper st;
     if (!s->kicks && x->a->desc.formulation == GVI_AUTO) d.formulation = x->pinned;
@@ -177,18 +180,19 @@ static inline struct advise_run advise_go(struct advise *x, const advise_setting
         if (x->a->momentum) gvi_start_momentum(&st, 0, x->a->q, x->a->v);
         else gvi_start(&st, 0, x->a->q, x->a->v);
         for (int sample = 0; sample < ADVISE_SAMPLES; ++sample) {
-            for (double i = 0; i < steps/(int)ADVISE_SAMPLES && st.status == GVI_OK; ++i) {
+            for (long i = 0; (double)i < steps/(int)ADVISE_SAMPLES && st.status == GVI_OK && !late; ++i) {
                 gvi_step(&st, span/steps);
+                late = i%64 == 63 && (double)(clock() - begin) > 8*x->o->seconds*CLOCKS_PER_SEC;
                 if (!x->sizing) continue;
                 x->size[0] = fmax(x->size[0], advise_largest(n, st.q, NULL));
                 x->size[1] = fmax(x->size[1], advise_largest(n, st.p, NULL));
             }
-            if (st.status != GVI_OK) break;
+            if (st.status != GVI_OK || late) break;
             memcpy(x->z + 2*sample*n, st.q, (size_t)n*sizeof(double));
             memcpy(x->z + (2*sample + 1)*n, st.p, (size_t)n*sizeof(double));
         }
         run.seconds = fmin(run.seconds, (double)(clock() - begin)/CLOCKS_PER_SEC);
-        run.status = st.status;
+        run.status = late ? GVI_E_CONVERGENCE : st.status;
         run.newton = st.counters.newton_iterations > 0;
         run.cost = x->o->counted ? advise_counted(x->a, &st) : run.seconds;
         x->result->spent += run.cost;
@@ -240,7 +244,11 @@ static inline double advise_reference(struct advise *x, double span, double goal
     for (int k = 0; k < 14; ++k, steps = advise_fours(1.4*steps + 1)) {
         if (x->sizing) x->size[0] = x->size[1] = 0;           // coarse runs may go astray
         const struct advise_run run = advise_go(x, &fine, span, steps);
-        if (run.status != GVI_OK) { have = 0; continue; }
+        if (run.status != GVI_OK) {
+            if (run.seconds > x->o->seconds) return 0;
+            have = 0;
+            continue;
+        }
         const double off = have ? advise_error(x, run.z, right) : HUGE_VAL;
         memcpy(right, run.z, (size_t)(2*ADVISE_SAMPLES*n)*sizeof(double));
         have = 1;
@@ -264,6 +272,7 @@ static inline double advise_trial(struct advise *x, advise_setting *s)
     for (int k = 0; k < 8; ++k) {
         const struct advise_run run = advise_go(x, s, x->window, steps);
         if (run.status != GVI_OK) {
+            if (run.seconds > x->o->seconds) return s->cost;
             failed = steps;
             if (before < steps) before = 0;
             steps = advise_fours(before > 0 ? sqrt(before*steps) : 1.6*steps);
@@ -455,29 +464,45 @@ static inline void advise_choose(struct advise *x)
     r->cost = r->setting.cost;
 }
 
-/* The formulation that the scene has without Newton's method.                  */
-static inline gvi_formulation advise_pin(const advise_case *a)
+/* The formulation that the scene has without Newton's method.  NULL, or why the scene does not start. */
+static inline const char *advise_pin(struct advise *x)
 {
     const advise_setting s = { .degree = 8, .order = 16 };
-    const gvi_desc d = advise_desc(a, &s);
+    const gvi_desc d = advise_desc(x->a, &s);
     double *memory = (double *)malloc(gvi_size(&d) + 1);
-    gvi_formulation chosen = GVI_AUTO;
     gvi_stepper st;
-    if (memory && gvi_init(&st, &d, memory, gvi_size(&d)) == GVI_OK) chosen = st.formulation;
+    gvi_status status = memory ? gvi_init(&st, &d, memory, gvi_size(&d)) : GVI_E_MEMORY;
+    x->pinned = status ? GVI_AUTO : st.formulation;
+    if (!status) status = x->a->momentum ? gvi_start_momentum(&st, 0, x->a->q, x->a->v) : gvi_start(&st, 0, x->a->q, x->a->v);
     free(memory);
-    return chosen;
+    return !status ? NULL : memory ? gvi_why(&st) : gvi_status_text(status);
 }
 
-/* 0, or -1 if nothing was found that comes to the wanted error.                */
+/* NULL, or what of the case and the options makes no sense.                    */
+static inline const char *advise_wrong(const advise_case *a, const advise_options *o)
+{
+    if (!(a->horizon > 0) || !isfinite(a->horizon)) return "horizon is not a finite number above 0";
+    if (!(a->h > 0) || !isfinite(a->h)) return "h, a step worth beginning with, is not a finite number above 0";
+    if (a->horizon/a->h > 1e9) return "h is so short that the horizon is more than 1e9 steps away: begin with a longer one";
+    if (!(o->error > 0) || !isfinite(o->error)) return "error is not a finite number above 0";
+    if (!(o->seconds > 0)) return "seconds, the CPU time of a run, is not above 0";
+    if (a->kicks_count > ADVISE_TABLES) return "kicks_count is above ADVISE_TABLES";
+    return NULL;
+}
+
+/* 0, or -1 if nothing was found that comes to the wanted error: result->why.   */
 static inline int advise_find(const advise_case *a, const advise_options *o, advise_result *result)
 {
     static struct advise x;
-    const size_t room = (size_t)(2*ADVISE_SAMPLES*a->desc.n)*sizeof(double);
     char line[240];
-    int found = -1, shrunk = 0;
+    int shrunk = 0;
     memset(result, 0, sizeof *result);
-    x = (struct advise){ .a = a, .o = o, .result = result, .best = HUGE_VAL,
-                         .pinned = advise_pin(a), .sizing = 1, .proof = 1 };
+    x = (struct advise){ .a = a, .o = o, .result = result, .best = HUGE_VAL, .sizing = 1, .proof = 1 };
+    result->why = advise_wrong(a, o);
+    if (!result->why) result->why = advise_pin(&x);
+    if (result->why) return advise_say(&x, result->why), -1;
+    const size_t room = (size_t)(2*ADVISE_SAMPLES*a->desc.n)*sizeof(double);
+    result->why = "there is no reference: its steps fail, or a window of the horizon takes longer than `seconds`";
     x.reference = (double *)malloc(room);
     x.far = (double *)malloc(room);
     x.z = (double *)malloc(room);
@@ -491,11 +516,12 @@ static inline int advise_find(const advise_case *a, const advise_options *o, adv
         }
         if (!(steps > 0) && x.window > 64*a->h && !shrunk++) {                   // dear, too
             x.window = fmax(x.window/16, 32*a->h);
-            x.pinned = advise_pin(a);
+            advise_pin(&x);
             continue;
         }
         if (!(steps > 0)) break;
         x.guess = 0.8*12*steps;
+        result->why = "the error is below rounding, or no setting has it within `seconds`";
         result->growth = ratio > 1 ? advise_growth(&x, x.window/steps*1.4) : 1;
         if (!(result->growth > 0)) break;
         x.target = o->error/result->growth;
@@ -512,13 +538,13 @@ static inline int advise_find(const advise_case *a, const advise_options *o, adv
         if (x.proof) x.proof = advise_reference(&x, a->horizon, o->error/30, x.window/steps, x.far) > 0;
         advise_say(&x, x.proof ? "proof: to the horizon" : "not proved: the horizon is too far");
         advise_choose(&x);
-        found = result->cost < HUGE_VAL ? 0 : -1;
+        if (result->cost < HUGE_VAL) result->why = NULL;
         break;
     }
     free(x.reference);
     free(x.far);
     free(x.z);
-    return found;
+    return result->why ? -1 : 0;
 }
 
 #endif

@@ -206,10 +206,11 @@ static inline void animate_plot(FILE *f, const animation *a, const svg_plot *plo
     fprintf(f, " dur=\"%.6gs\" repeatCount=\"indefinite\"/></path>\n", a->seconds);
 }
 
-/* Writes the film.  Returns 0, or -1 if the file cannot be written.           */
+/* Writes the film.  Returns 0, or -1 if there is nothing to show or the file cannot be written. */
 static inline int animate_write(const char *path, const animation *a)
 {
     svg_axis x = { 0, 0, 1, 20, 480, 6, 0 }, y = { 0, 0, 1, 480, 40, 6, 0 };
+    if (a->points < 1 || a->samples < 1 || a->every < 1 || !(a->seconds > 0)) return -1;
     FILE *f = fopen(path, "w");
     if (!f) return -1;
     animate_fit(a, &x, &y);

@@ -14,6 +14,8 @@
 
      coordinates   of a body with mass: x (3), e (4); of one that turns about a fixed point,
                    mass = 0: e (4) alone.  Bodies one after the other; n is their sum
+     refused       by the mass (GVI_E_CALLBACK), body_wrong says why: mass below 0, moments of 0
+                   or less, one above the sum of the others
      |e| = 1       held to rounding by one more row of the scene, body_unit(&scene); then with
                    .mass.velocity = NULL.  The same curves: each row here serves both ways
      rolling       balls and wheels: body_rolls(&round) and body_touches(&round)
@@ -176,6 +178,18 @@ static inline void body_slope(const body *b, const gvi_real *e, const gvi_real *
     for (int i = 0; i < 4; ++i) f[i] = (Ja*v[i] - 2*g[i] - 2*(twice + Ja*a)*e[i])/size;
 }
 
+/* NULL, or why there is no such body.  Moments of flat ones may be rounded to three digits. */
+static inline const char *body_wrong(const body *b)
+{
+    const gvi_real *a = b->inertia, all = a[0] + a[1] + a[2];
+    if (!(b->mass >= 0 && b->mass - b->mass >= 0)) return "mass is not a finite number of 0 or more";
+    for (int i = 0; i < 3; ++i)
+        if (!(a[i] > 0 && all - all >= 0)) return "a moment of inertia is not a finite number above 0";
+    for (int i = 0; i < 3; ++i)
+        if (a[i] - (all - a[i]) > a[i]/1000) return "a moment of inertia is larger than the two others together";
+    return NULL;
+}
+
 /* n of the scene; the mass refuses another (GVI_E_CALLBACK).                        */
 static inline int body_coordinates(const bodies *all)
 {
@@ -189,6 +203,8 @@ static inline int body_mass_points(const gvi_points *x, void *user)
     const bodies *all = (const bodies *)user;
     const int n = x->n;
     if (n != body_coordinates(all)) return 1;
+    for (int j = 0; j < all->count; ++j)
+        if (body_wrong(all->body + j)) return 1;
     for (int i = 0; i < n*n; ++i)
         for (int k = 0; k < x->count; ++k) x->mass[i*x->stride + k] = 0;
     for (int j = 0, row = 0; j < all->count; row += 4, ++j) {
@@ -244,6 +260,7 @@ static inline int body_mass_rows(const gvi_points *x, void *user)
 static inline int body_unit_points(const gvi_points *x, void *user)
 {
     const bodies *all = (const bodies *)user;
+    if (x->n != body_coordinates(all)) return 1;
     for (int j = 0, row = 0; j < all->count; row += 4, ++j) {
         if (all->body[j].mass > 0) row += 3;
         for (int k = 0; k < x->count; ++k) {
@@ -274,6 +291,10 @@ static inline gvi_mass body_mass(const bodies *all)
    left to steps' error the second alone, are rows of the velocity of a point of the body:
    body_contact_row, for ground of any shape and bodies of any other.                          */
 
+/* Callbacks refuse (GVI_E_CALLBACK) a body whose coordinates are not in the scene, a radius that is not above 0,
+   a gear without teeth.  The world is nowhere.                                                   */
+static inline int body_within(const gvi_points *x, int at) { return at <= x->n - 7; }
+
 /* `at` is the body's first coordinate, of 7; axis, in body axes, that of a wheel, 0 of a ball      */
 typedef struct body_round { int at; gvi_real radius, axis[3]; } body_round;
 
@@ -300,6 +321,7 @@ static inline void body_lowest(const body_round *a, const gvi_real *q, gvi_real 
 
 static inline int body_contact_points(const gvi_points *x, const body_round *a, int rolls)
 {
+    if (a->at < 0 || !body_within(x, a->at) || !(a->radius > 0)) return 1;
     for (int k = 0; k < x->count; ++k) {
         gvi_real q[7], from[3];
         body_take(x, x->q, a->at, 7, k, q);
@@ -442,6 +464,7 @@ static inline void body_both(const gvi_points *x, const body_joint *j, int k, gv
 static inline int body_joint_points(const gvi_points *x, void *user)
 {
     const body_joint *j = (const body_joint *)user;
+    if (!body_within(x, j->a) || !body_within(x, j->b)) return 1;
     for (int k = 0; k < x->count; ++k) {
         gvi_real q[2][7];
         body_both(x, j, k, q);
@@ -504,6 +527,8 @@ typedef struct body_gear { const body_joint *hinge[2]; int teeth[2]; } body_gear
 static inline int body_gear_points(const gvi_points *x, void *user)
 {
     const body_gear *gear = (const body_gear *)user;
+    for (int s = 0; s < 2; ++s)
+        if (!gear->teeth[s] || !body_within(x, gear->hinge[s]->a) || !body_within(x, gear->hinge[s]->b)) return 1;
     for (int k = 0; k < x->count; ++k) {
         gvi_real q[2][2][7], turn[2][2], torque[2][2][3], re = 1, im = 0;      // of the product of (cos + i sin)^teeth
         for (int s = 0; s < 2; ++s) {
@@ -543,6 +568,8 @@ typedef struct body_rope { int at[3]; gvi_real place[3][3], length; } body_rope;
 static inline int body_rope_points(const gvi_points *x, void *user)
 {
     const body_rope *rope = (const body_rope *)user;
+    for (int i = 0; i < 3; ++i)
+        if (!body_within(x, rope->at[i])) return 1;
     for (int k = 0; k < x->count; ++k) {
         gvi_real q[3][7];
         body_row end[3];

@@ -3,7 +3,7 @@
      check_finding list[20];
      check_report report = { .list = list, .room = 20 };
      char line[300];
-     check_scene(&desc, t, q, v, &report);
+     if (check_scene(&desc, t, q, v, &report) < 0) puts("gvi_init refuses it");
      for (int i = 0; i < report.count && i < 20; ++i)
          puts(check_line(&list[i], line, sizeof line));
 
@@ -63,7 +63,8 @@ typedef enum check_what {
     CHECK_BEYOND,     /* writes where it has no points                         */
     CHECK_READS_V,    /* potential or clock that depends on v                  */
     CHECK_POSITIVE,   /* a clock's g is not above 0                            */
-    CHECK_REFUSED     /* refuses, or gives NaN or Inf                          */
+    CHECK_REFUSED,    /* refuses, or gives NaN or Inf                          */
+    CHECK_STATE       /* t, q or v itself is not finite: nothing else is looked at */
 } check_what;
 
 typedef enum check_hint {
@@ -73,7 +74,7 @@ typedef enum check_hint {
 typedef struct check_finding {
     check_what  what;
     check_hint  hint;
-    int         effect;               /* index, or GVI_FAULT_MASS              */
+    int         effect;               /* index, GVI_FAULT_MASS; NONE: the state */
     const char *entry;                /* "f", "dldv", "fq", "mass", ...        */
     const char *against;              /* "-dV/dq", ...; "" if nothing          */
     int         i, j;                 /* coordinates; -1 where there is none   */
@@ -151,6 +152,13 @@ static inline int check_compare(struct check_run *c, check_finding f, gvi_real e
     const gvi_real large = fmax(fabs(f.found), fabs(f.right));
     f.bound = 20*err + c->tolerance*large + 64*c->eps*size;
     ++c->report->checked;
+    if (!isfinite(err)) {                                     // no two differences were to be had
+        f.what = CHECK_REFUSED;
+        f.entry = f.against;
+        f.against = "";
+        check_add(c, f);
+        return 0;
+    }
     size = fmax(size, large);
     if (fabs(f.found - f.right) <= f.bound) {
         if (f.bound >= size) ++c->report->zero;
@@ -237,7 +245,7 @@ static inline void check_extrapolate(struct check_run *c, int k, int depth, gvi_
     for (int j = 1; j <= depth && j < CHECK_DEPTH; ++j) {
         power *= 4;
         now[j] = now[j-1] + (now[j-1] - old[j-1])/(power - 1);
-        const gvi_real e = fmax(fabs(now[j] - now[j-1]), fabs(now[j] - old[j-1])) + noise;
+        const gvi_real a = fabs(now[j] - now[j-1]), b = fabs(now[j] - old[j-1]), e = (a > b ? a : b) + noise;
         if (e < *err) *err = e, *best = now[j];
     }
     memcpy(old, now, CHECK_DEPTH*sizeof *old);
@@ -875,7 +883,10 @@ static inline void check_whole_mass(struct check_run *c)
             const gvi_points x = { .n = c->n, .count = 1, .stride = 1, .t = &c->t, .q = c->q, .v = c->v,
                                    .f = c->one };
             memset(c->one, 0, (size_t)c->n*sizeof *c->one);
-            if (check_mass(c, c->found) || m->gradient(&x, m->user)) continue;
+            if (check_mass(c, c->found) || m->gradient(&x, m->user)) {
+                check_note(c, CHECK_REFUSED, "gradient", -1, -1);
+                continue;
+            }
             check_gradient(c, check_kinetic, c->q, c->size, 1, c->one, "gradient", "d(v'Mv/2)/dq");
         }
         if (m->velocity) check_velocity(c);
@@ -964,14 +975,28 @@ static inline gvi_status check_refused(const gvi_desc *desc)
     return status;
 }
 
-/* Returns how many findings there are; negative: no memory, or what gvi_init refuses the scene with. */
+static inline void check_state(struct check_run *c, gvi_real t, const gvi_real *q, const gvi_real *v)
+{
+    c->effect = GVI_FAULT_NONE;
+    if (!check_finite(1, &t)) check_note(c, CHECK_STATE, "t", -1, -1);
+    for (int i = 0; i < c->n; ++i) {
+        if (!check_finite(1, q + i)) check_note(c, CHECK_STATE, "q", i, -1);
+        if (!check_finite(1, v + i)) check_note(c, CHECK_STATE, "v", i, -1);
+    }
+}
+
+/* Returns how many findings there are; negative: a NULL, no memory, or what gvi_init refuses the scene with. */
 static inline int check_scene(const gvi_desc *desc, gvi_real t, const gvi_real *q, const gvi_real *v,
                               check_report *report)
 {
-    struct check_run c = { .desc = desc, .report = report, .n = desc->n };
+    struct check_run c = { .desc = desc, .report = report };
+    if (!desc || !q || !v || !report) return GVI_E_ARGUMENT;
+    c.n = desc->n;
     report->count = 0;
     const gvi_status refused = check_refused(desc);
     if (refused) return refused;
+    check_state(&c, t, q, v);
+    if (report->count) return report->count;
     gvi_real *memory = check_memory(&c);
     if (!memory) return GVI_E_MEMORY;
     c.eps = nextafter((gvi_real)1, (gvi_real)2) - 1;
@@ -1001,9 +1026,10 @@ static inline const char *check_line(const check_finding *f, char *line, int siz
     static const char *const words[] = {
         "", "", "", "", "is not definite", "overwrites what was there",
         "differs with many points at once", "differs when both are wanted at once", "writes beyond its rows",
-        "depends on v, which it may not", "is not above 0", "refuses, or is not finite" };
+        "depends on v, which it may not", "is not above 0", "refuses, or is not finite", "is not finite" };
     char who[32] = "mass", at[48] = "", where[40] = "the state given", is[96] = "";
     if (f->effect >= 0) snprintf(who, sizeof who, "effect %d", f->effect);
+    if (f->effect == GVI_FAULT_NONE) snprintf(who, sizeof who, "the state");
     if (f->i >= 0 && f->j >= 0) snprintf(at, sizeof at, "[%d][%d]", f->i, f->j);
     else if (f->i >= 0) snprintf(at, sizeof at, "[%d]", f->i);
     if (f->point) snprintf(where, sizeof where, "point %d near it", f->point);

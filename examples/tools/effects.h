@@ -260,9 +260,11 @@ struct spring { int a, b; gvi_real k, rest; };           /* between particles a 
 struct springs { particles on; const struct spring *list; int count, n; };
 
 /* Force over distance; a spring without rest length has one at distance 0, too. */
+static inline int spring_rests(gvi_real rest) { return !(rest <= 0 && rest >= 0); }
+
 static inline gvi_real spring_pull(gvi_real k, gvi_real rest, gvi_real r2)
 {
-    return rest > 0 ? k - k*rest/sqrt(r2) : k;
+    return spring_rests(rest) ? k - k*rest/sqrt(r2) : k;
 }
 
 static inline void springs_rows(int count, int d, const gvi_real *restrict a, const gvi_real *restrict b,
@@ -310,7 +312,7 @@ static inline int springs_value(const gvi_points *x, void *user)
 static inline gvi_real spring_stiffness(gvi_real k, gvi_real rest, int dim, const gvi_real *u, int i, int j)
 {
     gvi_real r2 = u[0]*u[0] + u[1]*u[1] + (dim == 3 ? u[2]*u[2] : 0);
-    return (i == j ? spring_pull(k, rest, r2) : 0) + (rest > 0 ? k*rest*u[i]*u[j]/(r2*sqrt(r2)) : 0);
+    return (i == j ? spring_pull(k, rest, r2) : 0) + (spring_rests(rest) ? k*rest*u[i]*u[j]/(r2*sqrt(r2)) : 0);
 }
 
 static inline int springs_hessian(gvi_real t, const gvi_real *q, const gvi_real *v,
@@ -857,13 +859,15 @@ static inline gvi_effect rods(const struct rods *p)
 
 /* Two links in a plane, absolute angles:  M = ( a            c cos(q0 - q1) )
    n = 2 is the whole scene.                   ( c cos(...)   b              )
-   For point masses at the ends a = (m1 + m2) l1^2, b = m2 l2^2, c = m2 l1 l2.  */
+   For point masses at the ends a = (m1 + m2) l1^2, b = m2 l2^2, c = m2 l1 l2.
+   Refused (GVI_E_CALLBACK) where M is not positive definite at all angles.     */
 struct two_links { gvi_real a, b, c; };
 
 static inline int two_links_mass(const gvi_points *x, void *user)
 {
     const struct two_links *p = (const struct two_links *)user;
     const int d = x->stride;
+    if (!(p->a > 0 && p->b > 0 && p->a*p->b > p->c*p->c)) return 1;
     for (int k = 0; k < x->count; ++k) {
         x->mass[k] = p->a;
         x->mass[2*d+k] = p->c*cos(x->q[k] - x->q[d+k]);
@@ -904,13 +908,15 @@ static inline gvi_mass two_links(const struct two_links *p)
 
 /* A top on its tip: q = (tilt, precession, spin), Euler's angles.  across and
    along are the moments of inertia about the tip.  n = 3 is the whole scene;
-   an upright top (tilt 0) is a singularity of the angles.                     */
+   an upright top (tilt 0) is a singularity of the angles.  Refused (GVI_E_CALLBACK):
+   moments that are not above 0.                                               */
 struct top { gvi_real across, along; };
 
 static inline int top_mass(const gvi_points *x, void *user)
 {
     const struct top *p = (const struct top *)user;
     const int d = x->stride;
+    if (!(p->across > 0 && p->along > 0)) return 1;
     for (int k = 0; k < x->count; ++k) {
         gvi_real c = cos(x->q[k]), s = sin(x->q[k]);
         x->mass[k] = p->across;

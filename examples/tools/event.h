@@ -128,6 +128,7 @@ static inline int event_secant(event *e, gvi_stepper *st, gvi_real a, gvi_real b
 /* The next zero of the last step.                                               */
 static inline int event_next(event *e, gvi_stepper *st)
 {
+    if (!e || !st || !e->g || !e->q || !e->v || !e->p) return GVI_E_ARGUMENT;
     const int intervals = st->s < 3 ? st->s + 1 : 4, states = event_by_states(st);
     gvi_real g, x;
     gvi_status status;
@@ -177,7 +178,7 @@ static inline int event_next(event *e, gvi_stepper *st)
 }
 
 /* Steps of h until the last one reaches over t, then the state at t; q, v, p [n], or NULL.
-   For a list of times, in the order of the steps.                                */
+   For a list of times, in the order of the steps.  GVI_E_ARGUMENT: h is 0 or so short that t is 1e15 steps away. */
 static inline gvi_status output_at(gvi_stepper *st, gvi_real h, gvi_real t, gvi_real *q, gvi_real *v, gvi_real *p)
 {
     if (!(t - t >= 0)) return gvi_state_at(st, t, q, v, p);          // says that it is not finite
@@ -188,8 +189,10 @@ static inline gvi_status output_at(gvi_stepper *st, gvi_real h, gvi_real t, gvi_
         }
         return v ? gvi_velocity(st, v) : GVI_OK;
     }
-    while (h > 0 ? st->t < t : st->t > t)
+    while (h > 0 ? st->t < t : st->t > t) {
+        if (event_size(t - st->t) > event_size(h)*(gvi_real)1e15) return GVI_E_ARGUMENT;
         if (gvi_step(st, h)) return st->status;
+    }
     return gvi_state_at(st, t, q, v, p);
 }
 

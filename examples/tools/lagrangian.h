@@ -487,6 +487,8 @@ static inline const char *lagrangian_begin(lagrangian *L, lagrangian_function fu
                  LAGRANGIAN_MOST);
         return L->why;
     }
+    if (!q || !w || !lagrangian_finite(n, q) || !lagrangian_finite(n, w) || !lagrangian_finite(1, &t))
+        return lagrangian_refuse(L, "the start is NULL or not finite: t, q, %s%s", of, "", 0);
     gvi_real value = lagrangian_at(&function, user, t, q, w, g, g + n);
     if (!lagrangian_finite(1, &value)) return lagrangian_refuse(L, "%s is not finite at the start", name, of, 0);
     for (int i = 0; i < 2*n; ++i)

@@ -94,6 +94,8 @@ int main(int argc, char **argv)
     int drawn = 0;
     gvi_desc desc = _Generic(mine, lagrangian_function: of_l, default: of_desc)(&mine);
     if (!desc.n) return 1;
+    if (!(mine_h > 0 && mine_horizon > 0 && mine_horizon/mine_h <= 1e8))
+        return puts("mine_h and mine_horizon have to be above 0, and the horizon at most 1e8 steps away"), 1;
     double *right = calloc(3*(size_t)desc.n, sizeof *right), *other = right + desc.n, *q = other + desc.n, seconds;
     desc.degree = 16;
     if (run(&desc, mine_h/2, right, &seconds) != GVI_OK || run(&desc, mine_h/3, other, &seconds) != GVI_OK)

@@ -12,8 +12,9 @@
    units    each equation is done when |c_i| <= tolerance: scale it so that this makes sense.
             One more correction follows, without a run: what is left is about its square
    errors   GVI_E_CONVERGENCE after `most` runs, GVI_E_SINGULAR where the end does not
-            depend on some combination of the unknowns, or what a step ends with; q and p
-            then are the last start
+            depend on some combination of the unknowns, GVI_E_NON_FINITE where c, M or the
+            next start is not finite, or what a step ends with; q and p then are the last
+            start. GVI_E_ARGUMENT: a NULL, no unknowns, steps below 0
    limits   no damping: from far off, move the end in parts (35_swing_up.c)
 
    Source: multiple-shooting textbooks, with one interval; Stoer and Bulirsch, 7.3.1.   */
@@ -30,7 +31,7 @@ typedef void shooting_fn(const gvi_real *q, const gvi_real *p, const gvi_real *d
 
 typedef struct shooting {
     const tangent  *scene;       /* after tangent_scene; its directions are the unknowns */
-    const gvi_real *dq, *dp;     /* [m][n] the directions                               */
+    const gvi_real *dq, *dp;     /* [m][n] the directions; NULL: as in tangent_start    */
     gvi_real        t, h;        /* steps of h from t on                                */
     int             steps;
     shooting_fn    *end;
@@ -46,6 +47,7 @@ typedef struct shooting {
    the scene's desc.                                                            */
 static inline gvi_status shoot(const shooting *S, gvi_stepper *st, gvi_real *q, gvi_real *p)
 {
+    if (!S || !S->scene || !S->end || !S->room || S->steps < 0 || !st || !q || !p) return GVI_E_ARGUMENT;
     const int n = S->scene->plain.n, m = S->scene->directions;
     gvi_real *M = S->room, *c = M + m*m, *column = c + m, *pivot = column + m;
     gvi_real *dq = pivot + m + 1, *dp = dq + n;
@@ -64,8 +66,16 @@ static inline gvi_status shoot(const shooting *S, gvi_stepper *st, gvi_real *q, 
         const gvi_status status = gvi_lu_factor(m, M, pivot);
         if (status) return status;
         gvi_lu_solve(m, M, pivot, c);
-        for (int j = 0; j < m; ++j)
-            for (int i = 0; i < n; ++i) q[i] -= S->dq[j*n + i]*c[j], p[i] -= S->dp[j*n + i]*c[j];
+        for (int i = 0; i < n; ++i) {
+            dq[i] = q[i], dp[i] = p[i];
+            for (int j = 0; j < m; ++j) {
+                dq[i] -= (S->dq ? S->dq[j*n + i] : (gvi_real)(i == j))*c[j];
+                dp[i] -= (S->dp ? S->dp[j*n + i] : (gvi_real)(i + n == j))*c[j];
+            }
+        }
+        for (int i = 0; i < 2*n; ++i)                          // as where c is not
+            if (!(dq[i] - dq[i] >= 0)) return GVI_E_NON_FINITE;
+        for (int i = 0; i < n; ++i) q[i] = dq[i], p[i] = dp[i];
         if (done) return GVI_OK;
     }
     return GVI_E_CONVERGENCE;

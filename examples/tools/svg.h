@@ -52,10 +52,10 @@ static inline double svg_round(double x, int up)
     return ten*(m > 4.999 ? 5 : m > 1.999 ? 2 : 1);
 }
 
-/* Of a logarithmic axis: whole decades.                                       */
+/* Of a logarithmic axis: whole decades.  A step of which there were thousands is not taken. */
 static inline double svg_tick(const svg_axis *axis)
 {
-    const double step = axis->step > 0 ? axis->step : svg_round((axis->hi - axis->lo)/axis->most, 1);
+    const double step = 1000*axis->step > axis->hi - axis->lo ? axis->step : svg_round((axis->hi - axis->lo)/axis->most, 1);
     return axis->log && step < 1 ? 1 : step;
 }
 
@@ -72,7 +72,8 @@ static inline void svg_fit(svg_axis *axis, const svg_plot *plot, int vertical)
 
     // nothing to show, or a single value: some room around it
     if (axis->lo > axis->hi) axis->lo = 0, axis->hi = 1;
-    if (!(axis->hi - axis->lo > 1e-9*(fabs(axis->lo) + fabs(axis->hi)))) axis->lo -= 1, axis->hi += 1;
+    const double size = 1e-9*(fabs(axis->lo) + fabs(axis->hi)), room = fmax(size, 1);
+    if (!(axis->hi - axis->lo > size)) axis->lo -= room, axis->hi += room;
     if (axis->log && !vertical && axis->hi - axis->lo < 3) {
         axis->lo = log10(svg_round(pow(10, axis->lo), 0));
         axis->hi = log10(svg_round(pow(10, axis->hi), 1));

@@ -337,6 +337,7 @@ static inline gvi_status tangent_start(const tangent *T, gvi_stepper *st, gvi_re
 {
     const int n = T->plain.n, N = n*(1 + T->columns);
     gvi_real *Q = T->room + 20*n, *P = Q + N;
+    if (!q || !p) return gvi_start_momentum(st, t, q, p);           // says so
     for (int i = 0; i < n; ++i) Q[i] = q[i], P[i] = p[i];
     for (int j = 0; j < T->columns; ++j)
         for (int i = 0; i < n; ++i) {

@@ -27,7 +27,7 @@ static int checked(gvi_desc desc, const double *q, const double *v)
     check_finding list[10];
     check_report report = { .list = list, .room = 10 };
     char line[300];
-    check_scene(&desc, 0, q, v, &report);
+    if (check_scene(&desc, 0, q, v, &report) < 0) puts("gvi_init refuses it");
     for (int i = 0; i < report.count && i < 10; ++i) puts(check_line(&list[i], line, sizeof line));
     return report.count;
 }

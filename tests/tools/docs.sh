@@ -62,8 +62,10 @@ count=$((count + 1))
 
 # -- 5; GitHub's anchors: lower case, no punctuation, hyphens for spaces, -1 for the second of a name
 anchors() {
-    awk '/^ *```/ { on = !on } !on && /^#+ /' "$1" | sed 's/^#* *//; s/\[\([^]]*\)\]([^)]*)/\1/g' | tr 'A-Z ' 'a-z-' |
-        tr -d '!"#$%&'"'"'()*+,./:;<=>?@[\\]^`{|}~' | awk '{ print seen[$0]++ ? $0 "-" seen[$0] - 1 : $0 }'
+    kept=$dir/anchors-$(basename "$1")
+    [ -f "$kept" ] || awk '/^ *```/ { on = !on } !on && /^#+ /' "$1" | sed 's/^#* *//; s/\[\([^]]*\)\]([^)]*)/\1/g' | tr 'A-Z ' 'a-z-' |
+        tr -d '!"#$%&'"'"'()*+,./:;<=>?@[\\]^`{|}~' | awk '{ print seen[$0]++ ? $0 "-" seen[$0] - 1 : $0 }' >"$kept"
+    cat "$kept"
 }
 for page in README.md docs/*.md; do
     for link in $(sed 's/`[^`]*`//g' "$page" | tr '\n' ' ' | grep -o '](\([^)]*\))' | sed 's/^](//; s/)$//' | grep -v '^[a-z]*:'); do

@@ -1,7 +1,9 @@
 #!/bin/sh
-# headers.sh BUILD [--quick]: gvi.h compiled without a single warning by every compiler that is there; then the
+# headers.sh BUILD [--quick FLOAT DOUBLE LONG]: gvi.h compiled without a single warning by every compiler that is there; then the
 # programs of tests/compile, which link several translation units; then the studies; then what must be refused.
 build=$1 quick=$2
+[ $# -lt 2 ] || shift 2
+objects=$*
 dir=$build/headers
 mkdir -p "$dir"
 rm -f "$dir"/*
@@ -83,7 +85,7 @@ for compiler in $compilers; do
     cc="$compiler -std=c99 $strict"
     for type in float double 'long double'; do
         implementation=tests/compile/implementation.c
-        [ "$quick" != --quick ] || implementation=$build/gvi-${type%% *}.o
+        [ "$quick" != --quick ] || implementation=${objects%% *} objects=${objects#* }
         $cc "-DGVI_REAL=$type" tests/compile/units_main.c tests/compile/units_other.c $implementation \
             -o "$dir/units" -lm && "$dir/units" || fail "$compiler: two units that share one implementation, $type"
         count=$((count + 1))

@@ -47,8 +47,8 @@ for type in float double 'long double'; do
 done
 
 # every wrong pair of a user (in C, in C++) and a library, every right one, then two libraries in one program
-few=$dir/few.o
-$CC -std=c99 -O0 -I. -DGVI_EFFECTS=8 -c tests/compile/implementation.c -o "$few" || fail "GVI_EFFECTS=8"
+few=$dir/few.o compile="$CC -std=c99 -O0 -I. -DGVI_EFFECTS=8 -c tests/compile/implementation.c"
+$compile -fstack-usage -fcallgraph-info -o "$few" 2>/dev/null || $compile -o "$few" || fail "GVI_EFFECTS=8"
 languages="$CC -std=c99 -xc"
 ! command -v "${CXX:-c++}" >/dev/null 2>&1 || languages="$languages
 ${CXX:-c++} -std=c++11 -xc++"
@@ -75,18 +75,17 @@ while read -r compile; do
 done <"$dir/languages"
 
 # gcc alone: every stack frame has a bound (it may be aligned for vectors), and the graph of calls has no loop
-if $CC -std=c99 -O0 -I. -fstack-usage -fcallgraph-info -c tests/compile/implementation.c -o "$dir/graph.o" 2>/dev/null &&
-   [ -f "$dir/graph.su" ] && [ -f "$dir/graph.ci" ]; then
-    out=$(awk '$NF != "static" && $NF != "dynamic,bounded"' "$dir/graph.su")
+if [ -f "$dir/few.su" ] && [ -f "$dir/few.ci" ]; then
+    out=$(awk '$NF != "static" && $NF != "dynamic,bounded"' "$dir/few.su")
     [ -z "$out" ] || fail "stack frames without a bound: $out"
-    sed -n 's/^edge: { sourcename: "\([^"]*\)" targetname: "\([^"]*\)".*/\1 \2/p' "$dir/graph.ci" |
+    sed -n 's/^edge: { sourcename: "\([^"]*\)" targetname: "\([^"]*\)".*/\1 \2/p' "$dir/few.ci" |
         grep -v __indirect_call >"$dir/calls"
     out=$(awk '$1 == $2' "$dir/calls")
     [ -z "$out" ] || fail "recursion: $out"
     out=$(tsort "$dir/calls" 2>&1 >/dev/null)
     [ -z "$out" ] || fail "recursion: $out"
     printf '  %-28s %s calls, no recursion; largest frame %s bytes at -O0\n' 'call graph' "$(wc -l <"$dir/calls")" \
-        "$(awk '{ if ($(NF-1) > m) m = $(NF-1) } END { print m }' "$dir/graph.su")"
+        "$(awk '{ if ($(NF-1) > m) m = $(NF-1) } END { print m }' "$dir/few.su")"
     count=$((count + 2))
 else
     echo "  skipped: stack and recursion, for which $CC has no -fcallgraph-info"
