@@ -8444,9 +8444,10 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
    it looks.  Stiff forces, for which Newton's method had to take over, turn all of y_s into an
    error: high.  (With constraints it takes over for other reasons.)  Below K = 4 single modes
    count, below 6 two pairs.  In positions the modes are those of M v, from the forces.  Where
-   motion is far below max |v| + max |q|/h, each times sqrt(M_ii), and below max |v| + |q_i|/h, or
-   what rounding of g makes of it, so that neither a light body nor one near the origin counts as
-   at rest, an error of some s^2 eps of the smaller of these is rounding, and relative to it.  */
+   motion is far below max |v| + max |q|/h, each times sqrt(M_ii), and below max |v| + |q_i|/h, so
+   that neither a light body nor one near the origin counts as at rest, an error of some s^2 eps of
+   the smaller of these is rounding, and relative to it.  Under constraints rounding of g over h is
+   in every velocity, and is all there is of one that starts from rest: no error of h.         */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
@@ -8487,7 +8488,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
                        around = gvi__smaller(own, whole);
         const int rests = size[i] < around/GVI__RESTS;
 
-        // what rounding of g, and of forces of constraint, makes of it: less the longer a step is
+        // what rounding of g, or of forces of constraint, makes of it: less the longer a step is
         gvi_real noise = reach ? mass[i]*reach[i]/h : 0;
         if (reach && (forces || rests)) noise = gvi__larger(GVI__EPS*whole, noise);
         if (missed[i] <= GVI__PULLED*noise) continue;
