@@ -8,9 +8,9 @@ PLAYGROUND        = $(BUILD)/playground
 PLAYGROUND_SOURCE = $(wildcard docs/playground/*.[ch]) gvi.h examples/tools/effects.h examples/tools/lagrangian.h \
                     tests/cost/coefficients.h
 WASM_CC    = clang
-# The page has to stay under 200 KB; it says so when it does not.  The program is a tenth smaller by -Os than by -O2, and
-# a tenth slower.
-WASM_FLAGS = --target=wasm32-wasi -mexec-model=reactor -Os -mbulk-memory -mnontrapping-fptoint -msign-ext \
+# The page has to stay under 200 KB; it says so when it does not.  By -Oz the program is 4 % smaller than by -Os, and its
+# steps 8 % slower.
+WASM_FLAGS = --target=wasm32-wasi -mexec-model=reactor -Oz -mbulk-memory -mnontrapping-fptoint -msign-ext \
              -fno-math-errno -mllvm -inline-threshold=0 -Wl,--gc-sections,--strip-all,-z,stack-size=65536
 # The same text natively, for the test
 PLAYGROUND_FLAGS = -std=c99 -ffp-contract=off -I. -Iexamples -Wall -Wextra -Wno-unused-const-variable
