@@ -926,6 +926,7 @@ struct gvi__newton {                  /* N = s (n + m) unknowns                 
     gvi_real *hessian;                /* [3 n*n] of one effect at one point                    */
     gvi_real *moved;                  /* [4n][R] F and P, moved and not                        */
     gvi_real  bend;                   /* worst contraction on the way to the last solution     */
+    gvi_real  noise;                  /* relative, of its modes, of the rounding of g          */
     gvi_real  h;                      /* for which J was made, 0: none                         */
     int       covers;                 /* solves the scene, by itself or where others fail      */
     int       left, next_left;        /* steps until the fixed point is tried; after this one  */
@@ -6020,6 +6021,7 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
     gvi_real ratio = 1, other = 1;
 
     if (!gvi__finite(change)) return GVI__NOT_FINITE;
+    st->in.newton.noise = noise;
     if (p->before > 0) ratio = change/gvi__smaller(p->before, all);
     if (p->earlier > 0) other = p->before/gvi__smaller(p->earlier, all);
     gvi__newton_note(st, p, change, noise);
@@ -6170,7 +6172,8 @@ static gvi_real gvi__newton_apart(const gvi_stepper *st, const gvi_real *other)
    as it changed last.  From a continuous branch the prediction is not far when the lengths are
    close; where it is however close they are, the branch has turned back.  A length is enough
    where the iteration contracts well from constant velocity, h/64 in any case.  If it then comes
-   to the same solution, or to none, y is accepted.                                           */
+   to the same solution, or to none, y is accepted.  Not far is near by noise alone, too: of a step
+   of no more than roundings of q, under constraints.                                          */
 static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from,
                                         const gvi__matrix *J)
 {
@@ -6198,8 +6201,9 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
         gvi__newton_points(st, from, h*(part*factor));
         const int found =
             gvi__newton_solve(st, from, &K) == GVI_OK && gvi__orientation(&K, all) == sign;
-        const gvi_real apart = found ? gvi__newton_apart(st, newton->guess) : 1;
-        if (!(apart <= close)) {
+        const gvi_real apart = found ? gvi__newton_apart(st, newton->guess) : 1,
+                       near = gvi__larger(close, newton->noise);
+        if (!found || !(apart <= near)) {
             factor = GVI_SQRT(factor);
             if (factor > (gvi_real)0.9998) right = 0;
             continue;
@@ -6209,13 +6213,13 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
         for (size_t k = 0; k < modes; ++k)
             newton->slope[k] += (newton->y[k] - newton->guess[k])/(1 - factor);
         if (factor > (gvi_real)0.5) {
-            if (apart < close/4) factor *= factor;
+            if (apart < near/4) factor *= factor;
             continue;
         }
         gvi__newton_guess(st, 0);
         const int other = gvi__newton_solve(st, from, &K) == GVI_OK;
         if ((other && newton->bend <= close) || part < 1/(gvi_real)GVI__SHORT)
-            right = !other || gvi__newton_apart(st, newton->branch) <= close;
+            right = !other || gvi__newton_apart(st, newton->branch) <= near;
     }
 
     gvi__newton_points(st, from, h);
