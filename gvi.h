@@ -6202,8 +6202,8 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
         const int found =
             gvi__newton_solve(st, from, &K) == GVI_OK && gvi__orientation(&K, all) == sign;
         const gvi_real apart = found ? gvi__newton_apart(st, newton->guess) : 1,
-                       near = gvi__larger(close, newton->noise);
-        if (!found || !(apart <= near)) {
+                       within = gvi__larger(close, newton->noise);
+        if (!found || !(apart <= within)) {
             factor = GVI_SQRT(factor);
             if (factor > (gvi_real)0.9998) right = 0;
             continue;
@@ -6213,13 +6213,13 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
         for (size_t k = 0; k < modes; ++k)
             newton->slope[k] += (newton->y[k] - newton->guess[k])/(1 - factor);
         if (factor > (gvi_real)0.5) {
-            if (apart < near/4) factor *= factor;
+            if (apart < within/4) factor *= factor;
             continue;
         }
         gvi__newton_guess(st, 0);
         const int other = gvi__newton_solve(st, from, &K) == GVI_OK;
         if ((other && newton->bend <= close) || part < 1/(gvi_real)GVI__SHORT)
-            right = !other || gvi__newton_apart(st, newton->branch) <= near;
+            right = !other || gvi__newton_apart(st, newton->branch) <= within;
     }
 
     gvi__newton_points(st, from, h);
