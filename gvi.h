@@ -7523,9 +7523,10 @@ GVI__OFFERED const gvi_real *gvi__constraint_reach(const gvi_stepper *st)
     const struct gvi__private *in = &st->in;
     const gvi_effect *effects = in->desc.effects;
     const int n = st->n, m = in->con.m;
-    gvi_real *reach = in->con.W, *moved = reach + n, *z = in->con.rho;
+    gvi_real *reach = in->con.W, *z = in->con.rho;
 
     if (!gvi__constrained(st)) return NULL;
+    gvi_real *moved = reach + n;
     gvi__zero((size_t)n, reach);
     for (int alternate = 0; alternate < 2; ++alternate) {
         for (int a = 0; a < m; ++a) {

@@ -287,7 +287,7 @@ TEST(bodies_that_cannot_be_are_refused)
     real q[7] = { 0, 0, 0, 1, 0, 0, 0 };
     const real v[7] = { 0 };
     for (int i = 0; i < COUNT(wrong) + COUNT(right); ++i) {
-        const body *b = i < COUNT(wrong) ? wrong + i : right + i - COUNT(wrong);
+        const body *b = i < COUNT(wrong) ? wrong + i : right + (i - COUNT(wrong));
         const bodies one = { b, 1 };
         const gvi_effect unit[] = { body_unit(&one) };
         for (int k = 0; k < 3; ++k) {                        // with mass.velocity, without, with |e| held

@@ -474,7 +474,7 @@ TEST(parameters_that_cannot_be_are_refused)
     static const struct top tops[] = { { 0, 1 }, { 1, 0 }, { -1, 1 }, { 1, -1 }, { (real)NAN, 1 }, { 1, (real)NAN } };
     for (int i = 0; i < 2*(COUNT(wrong) + COUNT(tops)); ++i) {
         const int k = i/2, is_top = k >= COUNT(wrong);
-        gvi_desc desc = { .n = is_top ? 3 : 2, .mass = is_top ? top(tops + k - COUNT(wrong)) : two_links(wrong + k) };
+        gvi_desc desc = { .n = is_top ? 3 : 2, .mass = is_top ? top(tops + (k - COUNT(wrong))) : two_links(wrong + k) };
         if (i % 2) desc.mass.velocity = NULL;
         gvi_stepper st = new_stepper(&desc);
         assert_status(gvi_start(&st, 0, q + 3, (real[]){ 1, 1, 1 }), GVI_E_CALLBACK);

@@ -160,7 +160,8 @@ static inline void animate_joined(FILE *f, const animation *a, const svg_axis *x
 
 static inline void animate_lines(FILE *f, const animation *a, const svg_axis *x, const svg_axis *y)
 {
-    for (const animate_line *l = a->lines; l < a->lines + a->line_count; ++l) {
+    for (int k = 0; k < a->line_count; ++k) {
+        const animate_line *l = a->lines + k;
         fprintf(f, "<path fill=\"none\" stroke=\"#555\" stroke-width=\"%s\" stroke-linejoin=\"round\" d=\"",
                 a->line_count > 4 ? "1.3" : "2.5");
         animate_joined(f, a, x, y, l, 0);
