@@ -175,7 +175,8 @@ $(PROGRAMS:%=$(BUILD)/tests/%): $(BUILD)/tests/%: $$(firstword $$(subst -, ,test
 	    $(if $(findstring -float,$*),-DGVI_REAL=float) $(if $(findstring -long,$*),'-DGVI_REAL=long double') \
 	    -DGVI_IMPLEMENTED $(TESTFLAGS) $(CMOCKA_CFLAGS) $< $(LIBRARY) -o $@ $(CMOCKA_LIBS) $(LDLIBS)
 
-# Examples link the library too, in float, of which `make test` runs little, one that compiles in a third of the time; alone, as a user compiles them, in alone-*.
+# Examples link the library too; alone, as a user compiles them, in alone-*.  `make test` runs little in float: for that
+# a library by -O0, which compiles in a third of the time.
 FLOAT_LIBRARY  = $(BUILD)/gvi-float-plain.o
 FLOAT_EXAMPLES = $(basename $(notdir $(shell grep -l 'define GVI_REAL float' examples/*.c)))
 $(BUILD)/examples/%: examples/%.c $$(if $$(filter $$(FLOAT_EXAMPLES),$$*),$(FLOAT_LIBRARY),$(BUILD)/gvi-double.o)

@@ -952,7 +952,7 @@ struct gvi__holonomic {               /* m rows on; C = stride of D_0..D_s      
     gvi_real *G1, *gram1;              /* [2][m][n], [m][m] at one point                        */
     gvi_real *column, *first;         /* [m][n+1], [m] where G is not 0: gvi__find_columns     */
     gvi_real *drops;                  /* [2][m] rows left out: gvi__factor_constraints         */
-    gvi_real *noise;                  /* [m] |g| at ends of steps: gvi__constraint_reach       */
+    gvi_real *noise;                  /* [m] |g| at ends of steps: gvi__constraint_shift       */
     int       m, C;
     int       Q;                      /* the stage that makes Q                                */
     int       made;                   /* iterations                                            */
@@ -6172,8 +6172,8 @@ static gvi_real gvi__newton_apart(const gvi_stepper *st, const gvi_real *other)
    as it changed last.  From a continuous branch the prediction is not far when the lengths are
    close; where it is however close they are, the branch has turned back.  A length is enough
    where the iteration contracts well from constant velocity, h/64 in any case.  If it then comes
-   to the same solution, or to none, y is accepted.  Not far is near by noise alone, too: of a step
-   of no more than roundings of q, under constraints.                                          */
+   to the same solution, or to none, y is accepted.  Under constraints rounding of g is in every
+   solution, and all of it where a step moves by roundings of q: what it makes counts as not far. */
 static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from,
                                         const gvi__matrix *J)
 {
@@ -6876,7 +6876,7 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
     return status;
 }
 
-// V of the P that F and lambda make
+// V of the P that F and lambda make, not of the step's own
 static const gvi_real *gvi__pushed_velocities(gvi_stepper *st, const gvi__stage *stage)
 {
     gvi_real *z = st->in.con.P;
@@ -7229,6 +7229,16 @@ GVI__CALLED gvi_status gvi__check_rank(gvi_stepper *st, int margin)
     return GVI_OK;
 }
 
+// what rows are off by at an end is rounding of g; that of earlier ends fades, as q moves on
+static void gvi__keep_noise(gvi_stepper *st, int start)
+{
+    gvi_real *noise = st->in.con.noise;
+    for (int a = 0; a < st->in.con.m; ++a) {
+        const gvi_real before = start ? 0 : noise[a]*(gvi_real)0.75;
+        noise[a] = gvi__larger(GVI_ABS(st->in.con.g[a]), before);
+    }
+}
+
 /* step.p += G' y such that G v + dg/dt = 0 at the end: once, and once more for the rounding of
    that, or with Lagrangian terms until that is left.  At a start, what is farther off than
    rounding is refused; for v by the kinetic energy in it, r' A^-1 r/2, r = G v + dg/dt.      */
@@ -7252,9 +7262,8 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     if (start) GVI__LOOK(st, 1);
     gvi_status status = gvi__constraints_at(st, t, q, p, v, drops);
     if (start) GVI__LOOK(st, 0);
+    if (status == GVI_OK) gvi__keep_noise(st, start);
     for (int a = 0; a < m; ++a) {
-        const gvi_real faded = start ? 0 : in->con.noise[a]*(gvi_real)0.75;
-        if (status == GVI_OK) in->con.noise[a] = gvi__larger(GVI_ABS(in->con.g[a]), faded);
         redundant |= drops[a] > 0;
         more += (drops[a] > 0) - (in->con.drops[a] > 0);
         if ((drops[a] > 0) != (in->con.drops[a] > 0)) row = a;
@@ -7518,16 +7527,16 @@ GVI__OFFERED gvi_real gvi__constraint_mode(const gvi_stepper *st, int i, int k)
 /* How far the rounding of g moves the coordinates: M^-1 G' A^-1 of what ends of steps were off by,
    or of eps of its known terms, once with one sign and once with signs that alternate, added.  To
    con.W; NULL where nothing holds.  All is that of the end, which was projected last.         */
-GVI__OFFERED const gvi_real *gvi__constraint_reach(const gvi_stepper *st)
+GVI__OFFERED const gvi_real *gvi__constraint_shift(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
     const gvi_effect *effects = in->desc.effects;
     const int n = st->n, m = in->con.m;
-    gvi_real *reach = in->con.W, *z = in->con.rho;
+    gvi_real *shift = in->con.W, *z = in->con.rho;
 
     if (!gvi__constrained(st)) return NULL;
-    gvi_real *moved = reach + n;
-    gvi__zero((size_t)n, reach);
+    gvi_real *moved = shift + n;
+    gvi__zero((size_t)n, shift);
     for (int alternate = 0; alternate < 2; ++alternate) {
         for (int a = 0; a < m; ++a) {
             z[a] = GVI__EPS*gvi__terms(st, 1, st->t, in->state.q, in->con.G1, in->con.g + m, a);
@@ -7543,9 +7552,9 @@ GVI__OFFERED const gvi_real *gvi__constraint_reach(const gvi_stepper *st)
         gvi__zero((size_t)n, moved);
         gvi__add_force(st, z, moved);
         gvi__over_inertia(st, moved, 1, 1);
-        for (int i = 0; i < n; ++i) reach[i] += GVI_ABS(moved[i]);
+        for (int i = 0; i < n; ++i) shift[i] += GVI_ABS(moved[i]);
     }
-    return reach;
+    return shift;
 }
 
 /* ---- set-up, start and switch ---- */
@@ -7977,7 +7986,7 @@ GVI__COLD void gvi__rolling_layout(struct gvi__private *in, gvi__arena *a)
 #else
 #define gvi__constrained(st) 0
 #define gvi__constraint_mode(st, i, k) ((void)(k), (gvi_real)0)
-#define gvi__constraint_reach(st) NULL
+#define gvi__constraint_shift(st) NULL
 #endif /* GVI_NO_CONSTRAINTS */
 
 #if !defined(GVI_NO_NEWTON) && !defined(GVI_NO_CONSTRAINTS)
@@ -8486,7 +8495,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
         v = gvi__larger(size[i]/mass[i], v);
     }
 
-    const gvi_real whole = fastest + farthest/h, *reach = gvi__constraint_reach(st);
+    const gvi_real whole = fastest + farthest/h, *shift = gvi__constraint_shift(st);
     if (!(whole > 0)) return 0;
     for (int i = 0; i < st->n; ++i) {
         const gvi_real own = mass[i]*(v + GVI_ABS(in->state.q[i])/h),
@@ -8494,8 +8503,8 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
         const int rests = size[i] < around/GVI__RESTS;
 
         // what rounding of g, or of forces of constraint, makes of it: less the longer a step is
-        gvi_real noise = reach ? mass[i]*reach[i]/h : 0;
-        if (reach && (forces || rests)) noise = gvi__larger(GVI__EPS*whole, noise);
+        gvi_real noise = shift ? mass[i]*shift[i]/h : 0;
+        if (shift && (forces || rests)) noise = gvi__larger(GVI__EPS*whole, noise);
         if (missed[i] <= GVI__PULLED*noise) continue;
         if (rests && missed[i] <= GVI__CANCELS*rounding*around) size[i] = around;
         worst = gvi__larger(missed[i]/size[i], worst);

@@ -1190,14 +1190,12 @@ GVI_EACH(rippled_dune, 3, rows(1))                /* q_1 + sin(3 q_1)/6 = a sin(
 
 GVI_EACH(cross_term, 3, v, f, dldv)              /* L = q_0 v_2/2 */
 {
-    (void)user;
     x->dldv[2] += x->q[0]/2;
     x->f[0] += x->v[2]/2;
 }
 
 GVI_EACH(heavy_load, 3, f)
 {
-    (void)user;
     x->f[1] -= 80;
 }
 

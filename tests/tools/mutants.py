@@ -75,11 +75,11 @@ MUTANTS = [
     # under constraints: V of the last lambda, rank that fades, rounding of g
     ("constraints", "    gvi__copy((size_t)(st->n*in->R), gvi__pushed_velocities(st, stage), in->work.V);\n", "    gvi__copy((size_t)(st->n*in->R), in->con.P, in->work.V);\n"),
     ("loops", "if (*start != GVI_OK) st->in.con.margin = GVI__FADES;", ""),
-    ("resolution", "gvi_real noise = reach ? mass[i]*reach[i]/h : 0;", "gvi_real noise = 0;"),
+    ("resolution", "gvi_real noise = shift ? mass[i]*shift[i]/h : 0;", "gvi_real noise = 0;"),
     ("resolution", "gvi__add_force(st, z, moved);\n        gvi__over_inertia(st, moved, 1, 1);", "gvi__add_force(st, z, moved);"),
     # the dial
-    ("resolution", "const gvi_real whole = fastest + farthest/h, *reach", "const gvi_real whole = fastest, *reach"),
-    ("resolution", "if (reach && (forces || rests)) noise = gvi__larger(GVI__EPS*whole, noise);", ""),
+    ("resolution", "const gvi_real whole = fastest + farthest/h, *shift", "const gvi_real whole = fastest, *shift"),
+    ("resolution", "if (shift && (forces || rests)) noise = gvi__larger(GVI__EPS*whole, noise);", ""),
     ("resolution", "if (high <= 4*GVI__EPS*(st->in.stages == 1 ? turn + low : *all))\n        return high*GVI__EPS*GVI__EPS;", ""),
     ("resolution", "return high*gvi__smaller(lacks, 1);", "return high*lacks*gvi__power((gvi_real)0.1, st->s/2);"),
     ("resolution", "const int degree = st->s < GVI__DEEP ? st->s : GVI__DEEP;", "const int degree = st->s;"),
