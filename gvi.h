@@ -204,14 +204,13 @@
 
      Q_i = q0 + h c_i v0 + h M^-1 sum_j (c_i - S_ij) h b_j F_j              (3)
      V_i = v0 + M^-1 sum_j (1 - T_ij) h b_j F_j                             (4)
-     S = Phi Gamma^-1 Phi'      T = phi Gamma^-1 Phi'      N = phi Gamma^-1 phi'
+     S = Phi Gamma^-1 Phi'      T = phi Gamma^-1 Phi'
 
    with phi_ik = phi_k(c_i), Phi_ik = Phi_k(c_i), and ' for the transpose.  So for
    effects that read only q the unknowns are the forces: put F in, get Q out,
    evaluate the effects at all r points at once, repeat.  No velocity, no matrix.  S is
    symmetric: that is what symplecticity asks of (3), and it survives rounding, since
-   S and c are rounded to one grid.  A Lagrangian term adds A_i = dL/dv to P_i:
-   h M^-1 sum_j T_ji b_j A_j is then taken from (3), M^-1 sum_j N_ij b_j A_j from (4).
+   S and c are rounded to one grid.
 
    r = s.  Then V_i is free at each node, Gamma^-1 phi' diag(b) = phi^-1, and
    (1) is the partitioned Runge-Kutta method
@@ -233,8 +232,8 @@
      explicit     s = 1, Lobatto with r = 2 or kicks, constant mass, effects read only
                   t and q: Stoermer-Verlet and splittings, no iteration
      positions    constant mass, effects read only t and q: (3) as fixed point
-     velocities   constant mass, any effects but a clock: (3) and (4) as fixed point
-     momenta      M(q), or velocity from momentum given, and r = s: (5)
+     velocities   constant mass, forces that read v: (3) and (4) as fixed point
+     momenta      M(q), Lagrangian terms, or velocity from momentum given, and r = s: (5)
      Newton       all but a clock and kicks: (1) by Newton's method, dense LU of size s*n
 
    Each iteration of a fixed point makes the error smaller by (rho h omega)^2 (positions) or
@@ -269,7 +268,7 @@
    and a singular Gamma (a mode without kinetic energy), u < s (free motion is not exact).
 
    NOTATION       n degrees of freedom   s degree   r points   h step
-                  q, v, p, t, F, P, V, Q, c, b, S, T, N   as above
+                  q, v, p, t, F, P, V, Q, c, b, S, T   as above
 
    GLOSSARY       point         a quadrature node: where in the step effects are evaluated
                   stage values  Q, V, P, F at the points of a step
@@ -878,8 +877,6 @@ struct gvi__rules {
 #ifndef GVI_NO_LAGRANGIAN
 struct gvi__lagrangian {
     gvi_real *A, *last_A, *older_A;   /* [n][R] dL/dv of the effects: stage values             */
-    gvi_real *T, *N;                  /* [r][R] tables of A, for velocities                    */
-    gvi_real *plus;                   /* [2n][R] what A adds to the stages                     */
     gvi_real *hessian;                /* [n*n + n + 1] d2L/dv2 at one point, with its LU       */
     gvi_real *column;                 /* [4n] scratch of the Legendre transform                */
 };
@@ -892,7 +889,7 @@ struct gvi__momenta {
     gvi_real *was;                    /* [n] velocities of the iteration before                */
     gvi_real *mass;                   /* [n*n][R] M(q) at the points, or its factors           */
     int       has_factor;             /* mass is that of this iteration, factored              */
-    int       moves;                  /* V still does: see gvi__velocities_again               */
+    int       moves;                  /* V still does: see gvi__place_between                  */
 };
 #endif
 
@@ -1316,7 +1313,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #ifdef GVI_NO_LAGRANGIAN
 #define GVI__LAGRANGIAN_LENGTH(n, r, R) 0
 #else
-#define GVI__LAGRANGIAN_LENGTH(n, r, R) ((5 + 5*(R) + (n))*(n) + 2*(r)*(R) + 1)
+#define GVI__LAGRANGIAN_LENGTH(n, r, R) ((5 + 3*(R) + (n))*(n) + 1)
 #endif
 #ifdef GVI_NO_MOMENTA
 #define GVI__MOMENTA_LENGTH(n, r, R) 0
@@ -2272,10 +2269,8 @@ static int gvi__place_mass(struct gvi__private *in, const char **wrong);
 static gvi_status gvi__place_rule(struct gvi__private *in, int *order, gvi_fault *fault);
 static int gvi__place_covers(struct gvi__private *in, gvi_formulation f);
 static gvi_status gvi__place_chosen(struct gvi__private *in, int order, gvi_fault *fault);
-static void gvi__place_unsolved(const struct gvi__private *in, gvi_fault *fault);
 static void gvi__place_layout(struct gvi__private *in, gvi__arena *a);
 static int gvi__place_nodes(gvi_stepper *st);
-static gvi_status gvi__place_modes(gvi_stepper *st);
 static gvi_status gvi__place_tables(gvi_stepper *st);
 
 /* Start, from q and p in in->step with velocity v, before they are taken.  A switch of effects from
@@ -2284,13 +2279,10 @@ static gvi_status gvi__place_start(gvi_stepper *st, gvi_real t, gvi_real *v);
 static void gvi__place_started(gvi_stepper *st);
 static gvi_status gvi__place_switch(gvi_stepper *st, unsigned was);
 
-/* Mass.  v from p, v a guess on entry; F and P of the kinetic energy at points; M_ii, for the noise
-   of the verdict; y := Gamma^-1 y, 1 if Gamma is full.                                        */
+// mass: v from p, v a guess on entry; M_ii, for the noise of the verdict
 static gvi_status gvi__place_velocity(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                       const gvi_real *p, gvi_real *v);
-static gvi_status gvi__place_kinetic(gvi_stepper *st, gvi_points *at);
 static gvi_real gvi__place_inertia(const gvi_stepper *st, int i);
-static int gvi__place_gamma(const gvi_stepper *st, gvi_real *y);
 
 /* Solve: in place of the fixed point, 1 if *status is the result; or where that has failed.   */
 static int gvi__place_solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query,
@@ -2298,53 +2290,83 @@ static int gvi__place_solve(gvi_stepper *st, const gvi__origin *from, gvi_real h
 static gvi_status gvi__place_turn(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query,
                                   gvi_status status);
 
-/* In the fixed point.  1) stages; 2) tables of the predictor, at alpha + beta c; sources;
-   3) before, between and behind new rows, `between` adds a change; 4) F in place of the effects;
-   5) a verdict or GVI__GO_ON, and how long no new least is chance; a move of coordinate i that is
-   rounding.                                                                                   */
+/* In the fixed point: 1) stages; 2) sources; 3) before new rows; 4) F in place of the effects; 5) a
+   verdict or GVI__GO_ON, and how long no new least is chance.                                 */
 static void gvi__place_stages(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                               struct gvi__stage *stage);
-static void gvi__place_predictor(gvi_stepper *st, gvi_real alpha, gvi_real beta);
 static gvi_status gvi__place_predict(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                      int extrapolate);
-static void gvi__place_before_rows(gvi_stepper *st, const struct gvi__stage *stage);
-static gvi_real gvi__place_between(gvi_stepper *st);
-static void gvi__place_behind_rows(gvi_stepper *st, const struct gvi__stage *stage, gvi_real sum);
 static gvi_status gvi__place_evaluate(gvi_stepper *st, const gvi__origin *from, gvi_points *at);
-static void gvi__place_last(gvi_stepper *st, const gvi__origin *from,
-                            const struct gvi__stage *stage);
 static int gvi__place_judge(gvi_stepper *st, const struct gvi__progress *p, gvi_real D,
                             int *patience);
-static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m);
 
-/* As many of `count` steps as a solver makes in a row, 0 if none does.                        */
-static int gvi__place_steps(gvi_stepper *st, gvi_real h, int count);
-
-/* 6) Increments, 1 if dq is made; sum_j (1 - c_j) h b_j F_j and what else bends coordinate i; the
-   end of a step or partial step, by any solver.  7) Once more?  Is the step accepted?  Commit; it
-   failed; values of steps.                                                                    */
+// 6) increments, 1 if dq is made; 7) is the step accepted?  Commit; it failed
 static int gvi__place_increments(gvi_stepper *st, const gvi__origin *from);
-static gvi_real gvi__place_bow(const gvi_stepper *st, int i);
-static gvi_status gvi__place_finish(gvi_stepper *st, const gvi__origin *from);
-static int gvi__place_again(gvi_stepper *st);
 static gvi_status gvi__place_accept(gvi_stepper *st);
 static void gvi__place_commit(gvi_stepper *st, gvi_real h);
 static void gvi__place_failed(gvi_stepper *st);
+
+/* Places of one chapter, which has them itself: y := Gamma^-1 y, 1 if Gamma is full; F and P of
+   M(q); V between the rows; steps that are made in a row, 0: none; the last step's curve, 1 if it
+   is made here, and its v; tables of the predictor; behind the rows and behind the last F; a move
+   that is rounding; the end of a step or partial step, by any solver, and once more?          */
+#ifndef GVI_NO_RULES
+static gvi_status gvi__place_modes(gvi_stepper *st);
+static int gvi__place_gamma(const gvi_stepper *st, gvi_real *y);
+#else
+#define gvi__place_modes(st) GVI_OK
+#define gvi__place_gamma(st, y) 0
+#endif
+#ifndef GVI_NO_LAGRANGIAN
 static void gvi__place_rotate(gvi_stepper *st);
-
-/* The last step's curve: 1 if it is made here, what else bends it, and its v.                 */
+#else
+#define gvi__place_rotate(st) ((void)0)
+#endif
+#ifndef GVI_NO_MOMENTA
+static gvi_status gvi__place_kinetic(gvi_stepper *st, gvi_points *at);
+static gvi_real gvi__place_between(gvi_stepper *st);
+#else
+#define gvi__place_kinetic(st, at) GVI_OK
+#define gvi__place_between(st) (gvi__count(&(st)->counters.velocities, (st)->r), (gvi_real)0)
+#endif
+#ifndef GVI_NO_KICKS
+static int gvi__place_steps(gvi_stepper *st, gvi_real h, int count);
 static int gvi__place_line(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v);
-static void gvi__place_held(const gvi_stepper *st, gvi_real tau, const gvi_real *phi,
-                            const gvi_real *Phi, gvi_real *q, gvi_real *v);
+#else
+#define gvi__place_steps(st, h, count) 0
+#define gvi__place_line(st, tau, q, v) 0
+#endif
+#ifndef GVI_NO_CLOCK                              // which changes what others do, too
 static gvi_status gvi__place_curve(gvi_stepper *st, const gvi_real *q, gvi_real *v);
-
-// a clock changes what others do, too
-#ifndef GVI_NO_CLOCK
 static int gvi__clock_is_on(const gvi_stepper *st);
 static void gvi__clock_velocities(const gvi_stepper *st);
 #else
+#define gvi__place_curve(st, q, v) GVI_OK
 #define gvi__clock_is_on(st) 0
 #define gvi__clock_velocities(st) ((void)0)
+#endif
+#ifndef GVI_NO_CONSTRAINTS
+static void gvi__place_predictor(gvi_stepper *st, gvi_real alpha, gvi_real beta);
+static void gvi__place_before_rows(gvi_stepper *st, const struct gvi__stage *stage);
+static void gvi__place_behind_rows(gvi_stepper *st, const struct gvi__stage *stage, gvi_real sum);
+static void gvi__place_last(gvi_stepper *st, const gvi__origin *from,
+                            const struct gvi__stage *stage);
+static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m);
+static gvi_status gvi__place_finish(gvi_stepper *st, const gvi__origin *from);
+static gvi_real gvi__place_bow(const gvi_stepper *st, int i);
+static int gvi__place_again(gvi_stepper *st);
+static void gvi__place_held(const gvi_stepper *st, gvi_real tau, const gvi_real *phi,
+                            const gvi_real *Phi, gvi_real *q, gvi_real *v);
+#else
+#define gvi__place_predictor(st, alpha, beta) ((void)(alpha))
+#define gvi__place_before_rows(st, stage) ((void)0)
+#define gvi__place_behind_rows(st, stage, sum) ((void)0)
+#define gvi__place_bow(st, i) 0
+#define gvi__place_last(st, from, stage) ((void)0)
+#define gvi__place_push(st, h, i, m) 0
+#define gvi__place_finish(st, from) GVI_OK
+#define gvi__place_again(st) 0
+#define gvi__place_held(st, tau, phi, Phi, q, v) ((void)0)
 #endif
 
 #ifndef GVI_NO_EXPLAIN
@@ -3030,13 +3052,22 @@ GVI__COLD gvi_status gvi__choose(struct gvi__private *in, int order, gvi_fault *
     return gvi__place_chosen(in, order, fault);
 }
 
+// constraints are there, on or off, and cannot be: the fault is the first of them
+GVI__COLD void gvi__unsolved(const struct gvi__private *in, gvi_fault *fault)
+{
+    for (int e = in->desc.effect_count - 1; e >= 0; --e) {
+        const gvi_fault found = { e, 0, GVI_FAULT_NONE, NULL };
+        if (in->desc.effects[e].kind >= GVI_CONSTRAINT) *fault = found;
+    }
+}
+
 GVI__COLD gvi_status gvi__resolve(struct gvi__private *in, const gvi_desc *desc, int *order,
                                   gvi_fault *fault)
 {
     gvi_status status = gvi__check(in, desc, fault);
     if (status == GVI_OK) status = gvi__check_rule(in, order, fault);
     if (status == GVI_OK) status = gvi__choose(in, *order, fault);
-    if (status == GVI_E_FORMULATION) gvi__place_unsolved(in, fault);
+    if (status == GVI_E_FORMULATION) gvi__unsolved(in, fault);
     return status;
 }
 
@@ -3962,8 +3993,9 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
     gvi__sum_rows(st, in->work.F, from->p_low, in->step.p, in->step.p_low);
     if (gvi__parts(in) && gvi__place_increments(st, from)) return;
     for (int i = 0; i < st->n; ++i, F += R) {
-        in->step.q[i] = gvi__parts(in) ? gvi__place_bow(st, i)
-                                       : R == 8 ? gvi__bow(8, c, hb, F) : gvi__bow(R, c, hb, F);
+        in->step.q[i] = gvi__parts(in) & GVI__IN_CONSTRAINTS && in->apart & ~in->off
+                            ? gvi__place_bow(st, i)
+                            : R == 8 ? gvi__bow(8, c, hb, F) : gvi__bow(R, c, hb, F);
     }
 
     gvi__over_mass(st, in->step.q, 1, 1);
@@ -4400,12 +4432,8 @@ GVI_DEF size_t gvi_stepper_size(void) { return sizeof(gvi_stepper); }
 
    L may have terms that depend on v in any way: they add dL/dq to F and A_i = dL/dv to P_i.
 
-   With a constant mass and V from (4), A is one more source of the stages:
-
-     Q_i -= h M^-1 sum_j T_ji b_j A_j        V_i -= M^-1 sum_j N_ij b_j A_j
-
-   With momenta (5), V_i = M^-1 (P_i - A_i).  In both, v from p at one point takes Newton's method:
-   the Legendre transform.                                                                     */
+   With momenta (5), V_i = M^-1 (P_i - A_i).  v from p at one point takes Newton's method: the
+   Legendre transform.                                                                         */
 
 GVI__OFFERED gvi_real *gvi__rows_of_A(const struct gvi__private *in) { return in->lagrangian.A; }
 
@@ -4569,67 +4597,19 @@ GVI__COLD void gvi__lagrangian_layout(struct gvi__private *in, gvi__arena *a)
 {
     struct gvi__lagrangian *l = &in->lagrangian;
     const size_t n = (size_t)in->desc.n, r = (size_t)in->desc.rule.points, R = (size_t)GVI__ROW(r),
-                 fixed = in->chosen != GVI_NEWTON, velocities = in->chosen == GVI_VELOCITIES,
+                 fixed = in->chosen != GVI_NEWTON,
                  older = fixed && r < 10 && GVI__DIG > 24;
     l->A = gvi__take(a, fixed*n, R);
     l->last_A = gvi__take(a, fixed*n, R);
     l->older_A = gvi__take(a, older*n, R);
-    l->T = gvi__take(a, velocities*r, R);
-    l->N = gvi__take(a, velocities*r, R);
-    l->plus = gvi__take(a, velocities*2*n, R);
     l->hessian = gvi__take(a, 1, n*n + n + 1);
     l->column = gvi__take(a, 4, n);
 }
 
-// -T_ji and -N_ij by columns
-GVI__COLD void gvi__lagrangian_tables(gvi_stepper *st)
+static void gvi__place_rotate(gvi_stepper *st)
 {
-    const struct gvi__private *in = &st->in;
-    const struct gvi__tables *table = &in->table;
-    const int r = st->r, R = in->R;
-    if (!in->lagrangian.T) return;
-    for (int j = 0; j < r; ++j) {
-        gvi__prepare_column(st, table->phi, table->phi_low, j);
-        for (int i = 0; i < r; ++i) {
-            in->lagrangian.T[i*R + j] = table->U[j*R + i] - 1;
-            in->lagrangian.N[j*R + i] = -gvi__coupling(st, table->phi, table->phi_low, i).hi;
-        }
-    }
-}
-
-// a dL/dv near this step's: the last step's at its last point, or that of the start
-static gvi_real *gvi__level(const gvi_stepper *st, int i)
-{
-    return st->in.lagrangian.last_A + (i*st->in.R + st->r - 1);
-}
-
-GVI__COLD void gvi__lagrangian_started(gvi_stepper *st)
-{
-    const struct gvi__private *in = &st->in;
-    gvi_points at = gvi__one_point(st, &st->t, in->state.q);
-    if (!in->lagrangian.plus) return;
-    at.v = in->start;
-    (void)gvi__evaluate(st, &at, ~0u, 1);          // M v alone, which cannot fail
-    for (int i = 0; i < st->n; ++i) *gvi__level(st, i) = in->state.p[i] - at.dldv[i];
-}
-
-/* Where p is large and cancels dL/dv, neither may enter V whole: their rounding would make F belong
-   to another motion than Q.  So free motion is that of p less the level, and A is above it.   */
-static void gvi__lagrangian_stages(gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                                   gvi__stage *stage)
-{
-    const struct gvi__private *in = &st->in;
-    gvi_real *p = in->lagrangian.column, *p_low = p + st->n;
-    if (!in->lagrangian.plus) return;
-    for (int i = 0; i < st->n; ++i) {
-        const gvi__two z = gvi__two_sum(from->p[i], -*gvi__level(st, i));
-        p[i] = z.hi;
-        p_low[i] = gvi__low(z.lo + from->p_low[i]);
-    }
-    const gvi__origin less = { from->t, from->t_low, from->q, from->q_low, p, p_low };
-    gvi__free_motion(st, &less, h);
-    stage[0].plus = in->lagrangian.plus;
-    stage[1].plus = in->lagrangian.plus + st->n*in->R;
+    struct gvi__lagrangian *l = &st->in.lagrangian;
+    if (gvi__parts(&st->in) & GVI__IN_LAGRANGIAN) gvi__rotate(&l->older_A, &l->last_A, &l->A);
 }
 
 // A of the last step, extrapolated, or none
@@ -4640,63 +4620,6 @@ static void gvi__lagrangian_predict(const gvi_stepper *st, int extrapolate)
     else gvi__zero((size_t)st->n*(size_t)st->in.R, l->A);
 }
 
-/* Rounding of A, divided by M, is in V, and times d2L/dqdv again in F: by so much as A moves over
-   M V it grows.  Newton's method, whose V is Q' to rounding, has no such loss.                */
-static gvi_status gvi__lagrangian_verdict(gvi_stepper *st)
-{
-    const struct gvi__private *in = &st->in;
-    const int R = in->R, step = in->desc.mass.kind == GVI_MASS_DENSE ? st->n + 1 : 1;
-    if (!in->lagrangian.plus || !in->turns) return GVI_OK;
-    for (int i = 0; i < st->n; ++i) {
-        const gvi_real *A = in->lagrangian.A + i*R, *V = in->work.V + i*R,
-                       level = *gvi__level(st, i);
-        gvi_real moves = 0, v = 0;
-        for (int k = 0; k < st->r; ++k) {
-            moves = gvi__larger(GVI_ABS(A[k] - level), moves);
-            v = gvi__larger(GVI_ABS(V[k]), v);
-        }
-        const gvi_real most = GVI__PLACE*GVI_ABS(in->mass.matrix[i*step])*v;
-        if (moves > most && moves > GVI__SURE*GVI__EPS*GVI_ABS(level))
-            return gvi__report_status(st, GVI_E_CONVERGENCE);
-    }
-
-    return GVI_OK;
-}
-
-// b A_i above the level
-static void gvi__above(const gvi_stepper *st, int i, gvi_real *out)
-{
-    const gvi_real *A = st->in.lagrangian.A + i*st->in.R, level = *gvi__level(st, i);
-    for (int k = 0; k < st->r; ++k) out[k] = st->in.table.b[k]*(A[k] - level);
-}
-
-// what A adds to the stages
-static void gvi__lagrangian_before(const gvi_stepper *st)
-{
-    const struct gvi__private *in = &st->in;
-    const int n = st->n, R = in->R;
-    gvi_real *plus = in->lagrangian.plus;
-    if (!plus) return;
-    gvi_real *weighted = plus + n*R;               // what V gets is there first
-    for (int i = 0; i < n; ++i)
-        gvi__above(st, i, weighted + i*R);
-    gvi__sums(st, in->lagrangian.T, weighted, plus, 0);
-    for (int i = 0; i < n; ++i) {
-        gvi__above(st, i, in->weighted);
-        for (int k = 0; k < R; ++k)
-            weighted[i*R + k] = gvi__point_sum(st->r, R, in->lagrangian.N + k, in->weighted);
-    }
-}
-
-// sum_j b_j A_j, which bends coordinate i back
-static gvi_real gvi__lagrangian_bow(const gvi_stepper *st, int i)
-{
-    const struct gvi__private *in = &st->in;
-    gvi_real sum = 0;
-    gvi__above(st, i, in->weighted);
-    for (int k = 0; k < st->r; ++k) sum += in->weighted[k];
-    return sum;
-}
 #else
 #define gvi__check_hessian(st, at, v) GVI_OK
 #define gvi__factor_hessian(st, at, v) ((void)(at), (void)(v), GVI_OK)
@@ -4844,8 +4767,9 @@ static gvi_status gvi__momenta_velocity(gvi_stepper *st, gvi_points *at, const g
 }
 
 // F and P of v'M(q)v/2
-static gvi_status gvi__momenta_kinetic(gvi_stepper *st, gvi_points *at)
+static gvi_status gvi__place_kinetic(gvi_stepper *st, gvi_points *at)
 {
+    if (st->in.desc.mass.kind != GVI_MASS_POSITION) return GVI_OK;
     gvi_status status = gvi__evaluate_mass(st, at, NULL, NULL);
     if (status == GVI_OK) status = gvi__mass_gradient(st, at);
     if (status == GVI_OK) gvi__add_kinetic(at, st->in.momenta.mass, at->stride);
@@ -4960,13 +4884,17 @@ static void gvi__velocity_rows(const gvi_stepper *st, const gvi_real *P, gvi_rea
    as fast.  Where Lagrangian terms make V it can diverge while Q and P hardly change: returns its
    squared relative change at the last point, times r as if summed over all.  V moves as long as
    that is more than half of the digits of what M V is the difference of: no noise ends then.  */
-static gvi_real gvi__velocities_again(gvi_stepper *st)
+static gvi_real gvi__place_between(gvi_stepper *st)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, R = in->R, clock = gvi__clock_is_on(st),
               made = gvi__rows_of_A(in) != NULL;
     const gvi_real *V = in->work.V + st->r - 1;
     gvi_real *was = in->momenta.was, sum = 0;
+    if (!(gvi__parts(in) & GVI__IN_MOMENTA)) {    // stages are Q and V
+        gvi__count(&st->counters.velocities, st->r);
+        return 0;
+    }
     in->momenta.moves = 0;
 
     // before the first evaluation Q, g and M(Q) are those of another step
@@ -5025,6 +4953,7 @@ GVI__OFFERED gvi_real *gvi__mass_at_points(const struct gvi__private *in)
 }
 #else
 #define gvi__mass_at_points(in) ((gvi_real *)0)
+#define gvi__evaluate_mass(st, x, p, v) GVI_OK
 #define gvi__factor_mass(st, x) ((void)(x), GVI_OK)
 #endif /* GVI_NO_MOMENTA */
 
@@ -5263,7 +5192,7 @@ static void gvi__clock_commit(gvi_stepper *st)
 }
 
 // v = q'/g on the last step's curve
-static gvi_status gvi__clock_curve(gvi_stepper *st, const gvi_real *q, gvi_real *v)
+static gvi_status gvi__place_curve(gvi_stepper *st, const gvi_real *q, gvi_real *v)
 {
     gvi_real rate;
     if (st->in.stepped != 2) return GVI_OK;
@@ -5461,14 +5390,14 @@ static void gvi__kicks_move(struct gvi__private *in)
 
 /* As many steps as kicks alone can make: up to `count`, or to one that fails, which gvi_step then
    looks at.  What only iterations and queries need is done once, behind them all.             */
-static int gvi__kick_steps(gvi_stepper *st, gvi_real h, int count)
+static int gvi__place_steps(gvi_stepper *st, gvi_real h, int count)
 {
     struct gvi__private *in = &st->in;
     const gvi__origin from = { 0, 0, st->q, st->q_low, st->p, st->p_low };
     gvi_real t0 = st->t0;
     int made = 0;
 
-    if (in->apart) return 0;                       // constraints
+    if (!(gvi__parts(in) & GVI__IN_KICKS) || in->apart) return 0;         // apart: constraints
     gvi__weights_for(st, h);
     gvi__drifts_for(st, h);
     for (; made < count; ++made) {
@@ -5501,15 +5430,17 @@ static int gvi__kick_steps(gvi_stepper *st, gvi_real h, int count)
 }
 
 // the last step's curve: a straight line
-static void gvi__kicks_line(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
+static int gvi__place_line(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
 {
     const struct gvi__private *in = &st->in;
+    if (!(gvi__parts(in) & GVI__IN_KICKS)) return 0;
     for (int i = 0; i < st->n; ++i) {
         const gvi_real path = (in->state.q[i] - in->began.q[i]) + in->state.q_low[i];
         if (tau < (gvi_real)0.5) q[i] = in->began.q[i] + tau*path;
         else q[i] = in->state.q[i] - (1 - tau)*path;
         v[i] = path/st->h;
     }
+    return 1;
 }
 #endif /* GVI_NO_KICKS */
 
@@ -6452,14 +6383,6 @@ GVI__COLD gvi_status gvi__report_row(gvi_stepper *st, gvi_status status, int row
     return gvi__report(st, status, e, row, point);
 }
 
-// constraints are there, on or off, and cannot be: the fault is the first of them
-GVI__OFFERED gvi_status gvi__refuse_constraints(gvi_stepper *st)
-{
-    int e = 0;
-    while (!(st->in.con.bits >> e & 1u)) ++e;
-    return gvi__report(st, GVI_E_FORMULATION, e, 0, GVI_FAULT_NONE);
-}
-
 // of the columns of row a that are read and cleared, the first from i on; n: there is none
 GVI__BODY int gvi__column(const gvi_stepper *st, int a, int i)
 {
@@ -6929,18 +6852,20 @@ static void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const gvi_r
 }
 
 // after the last F: the lambda of that, and where V makes the end of q, the V of both
-GVI__CALLED void gvi__constraint_last(gvi_stepper *st, const gvi__stage *stage, const gvi_real *q0)
+GVI__CALLED void gvi__place_last(gvi_stepper *st, const gvi__origin *from, const gvi__stage *stage)
 {
     struct gvi__private *in = &st->in;
-    gvi__constrain(st, stage, q0);
+    if (!gvi__constrained(st)) return;
+    gvi__constrain(st, stage, from->q);
     if (in->con.Q == 0) return;
     gvi__copy((size_t)(st->n*in->R), gvi__pushed_velocities(st, stage), in->work.V);
 }
 
 // before the rows: lambda, and what the impulses add to them
-static void gvi__constraint_before(gvi_stepper *st, const gvi__stage *stage)
+static void gvi__place_before_rows(gvi_stepper *st, const gvi__stage *stage)
 {
     struct gvi__private *in = &st->in;
+    if (!gvi__constrained(st)) return;
     const int Q = in->con.Q, nR = st->n*in->R;
     gvi_real *plus = in->con.plus, *scratch = in->con.D;
     if (in->con.made > 0) gvi__constrain(st, stage, stage[Q].base);
@@ -6950,8 +6875,9 @@ static void gvi__constraint_before(gvi_stepper *st, const gvi__stage *stage)
         gvi__weighted_sums(st, in->con.U, in->con.hw, in->con.force, scratch, plus + nR, 0);
 }
 
-static void gvi__constraint_behind(gvi_stepper *st, const gvi__stage *stage, gvi_real sum)
+static void gvi__place_behind_rows(gvi_stepper *st, const gvi__stage *stage, gvi_real sum)
 {
+    if (!gvi__constrained(st)) return;
     st->in.con.linear |=
         GVI__DIG > FLT_MANT_DIG && st->in.con.made > 0 && sum < GVI__EPS*GVI_SQRT(GVI__EPS);
     gvi__constraint_rows(st, stage, stage[st->in.con.Q].source);
@@ -6973,9 +6899,10 @@ GVI__CALLED void gvi__constraints_moved(const gvi_stepper *st, gvi_real *moved)
 }
 
 // E takes forces and lambda of the last step to alpha + beta d_e
-static void gvi__constraint_predictor(gvi_stepper *st, gvi_real alpha, gvi_real beta)
+static void gvi__place_predictor(gvi_stepper *st, gvi_real alpha, gvi_real beta)
 {
     struct gvi__holonomic *con = &st->in.con;
+    if (!gvi__constrained(st)) return;
     if (!gvi__nonzero(alpha - con->alpha) && !gvi__nonzero(beta - con->beta)) return;
     con->alpha = alpha;
     con->beta = beta;
@@ -7033,10 +6960,11 @@ static int gvi__patience(const gvi_stepper *st, const gvi__progress *p)
 /* A move of coordinate i that is rounding, whatever its amplitude: of a force of constraint, 32 eps
    of it, or its last change where that came from the rounding of g, which nearly dependent rows
    make large.                                                                                 */
-static gvi_real gvi__constraint_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m)
+static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m)
 {
     const struct gvi__private *in = &st->in;
     gvi_real push = 0;
+    if (!gvi__constrained(st)) return 0;
     if (i == 0) gvi__constraints_moved(st, in->con.W);
     for (int e = 0; e < st->s; ++e) {
         const gvi_real force = GVI__NOISE*GVI__EPS*GVI_ABS(h*in->con.force[i*in->R + e])
@@ -7070,7 +6998,7 @@ GVI__CALLED gvi__two gvi__moment(int count, const gvi_real *c, const gvi_real *w
 }
 
 // sum_j (1 - c_j) h b_j F_j and that of the impulses, in double words: large forces may cancel
-static gvi_real gvi__constraint_bow(const gvi_stepper *st, int i)
+static gvi_real gvi__place_bow(const gvi_stepper *st, int i)
 {
     const struct gvi__private *in = &st->in;
     const gvi__two a = gvi__moment(st->r, in->table.c, in->sized.hb, in->work.F + i*in->R),
@@ -7316,6 +7244,19 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     return GVI_OK;
 }
 
+static gvi_status gvi__place_finish(gvi_stepper *st, const gvi__origin *from)
+{
+    return gvi__constrained(st) ? gvi__project(st, from, 0) : GVI_OK;
+}
+
+// with columns that were found
+static int gvi__place_again(gvi_stepper *st)
+{
+    const int again = st->in.con.again;
+    st->in.con.again = 0;
+    return again;
+}
+
 // the rows are others now
 GVI__COLD void gvi__forget_columns(gvi_stepper *st)
 {
@@ -7496,10 +7437,11 @@ GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h)
 }
 
 // what the forces of constraint add to the last step's curve, made of forces
-static void gvi__constraint_held(const gvi_stepper *st, gvi_real tau, const gvi_real *phi,
-                                 const gvi_real *Phi, gvi_real *q, gvi_real *v)
+static void gvi__place_held(const gvi_stepper *st, gvi_real tau, const gvi_real *phi,
+                            const gvi_real *Phi, gvi_real *q, gvi_real *v)
 {
     const struct gvi__private *in = &st->in;
+    if (in->stages != 1 || in->has_velocity || !in->con.kept) return;
     for (int e = 0; e < st->s; ++e) {
         gvi_real S = 0, T = 0;                     // Phi(d_0) = 0
         for (int k = 0; e > 0 && k < st->s; ++k) {
@@ -7673,8 +7615,8 @@ GVI__COLD gvi_status gvi__constraint_switch(gvi_stepper *st, unsigned was)
 }
 
 // a step failed: is a row wrong already where it starts, or left out there, and cannot be?
-GVI__OFFERED int gvi__constraint_explain(gvi_stepper *st, gvi_status status, gvi_real *v,
-                                      gvi_status *start)
+GVI__OFFERED int gvi__place_explain(gvi_stepper *st, gvi_status status, gvi_real *v,
+                                    gvi_status *start)
 {
     gvi_real *drops = st->in.con.drops + st->in.con.m;
     if (!gvi__constrained(st)) return 0;
@@ -7987,6 +7929,7 @@ GVI__COLD void gvi__rolling_layout(struct gvi__private *in, gvi__arena *a)
 #define gvi__constrained(st) 0
 #define gvi__constraint_mode(st, i, k) ((void)(k), (gvi_real)0)
 #define gvi__constraint_shift(st) NULL
+#define gvi__place_explain(st, status, v, start) 0
 #endif /* GVI_NO_CONSTRAINTS */
 
 #if !defined(GVI_NO_NEWTON) && !defined(GVI_NO_CONSTRAINTS)
@@ -8204,12 +8147,13 @@ GVI__COLD gvi_status gvi__check_own_rule(const struct gvi__private *in, int *ord
 }
 
 /* Of a mode that the rule all but misses, half of the digits would be left: refused.           */
-GVI__COLD gvi_status gvi__make_gamma(gvi_stepper *st)
+GVI__COLD gvi_status gvi__place_modes(gvi_stepper *st)
 {
     const struct gvi__tables *table = &st->in.table;
     const int s = st->s, r = st->r, R = st->in.R;
     gvi_real *gamma = st->in.rules.gamma;
 
+    if (st->in.desc.rule.kind != GVI_OWN) return GVI_OK;
     if (st->order == 2*s - 2) {
         const gvi_real *last = table->phi + (s - 1)*R, sum = gvi__dot3(r, table->b, last, last);
         if (!(GVI_ABS(sum) > GVI_SQRT(GVI__EPS))) return GVI_E_POINTS;
@@ -8224,6 +8168,14 @@ GVI__COLD gvi_status gvi__make_gamma(gvi_stepper *st)
     if (!(gvi_lu_rcond(s, gamma, gamma + s*s, st->in.set_up) > GVI_SQRT(GVI__EPS)))
         return GVI_E_POINTS;
     return GVI_OK;
+}
+
+static int gvi__place_gamma(const gvi_stepper *st, gvi_real *y)
+{
+    const gvi_real *gamma = st->in.rules.gamma;
+    if (!(gvi__parts(&st->in) & GVI__IN_RULES)) return 0;
+    gvi_lu_solve(st->s, gamma, gamma + st->s*st->s, y);
+    return 1;
 }
 #endif /* GVI_NO_RULES */
 
@@ -8982,8 +8934,6 @@ GVI__COLD gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J,
     return GVI_OK;
 }
 
-// constraints and clocks have no discrete Lagrangian here
-static gvi_status gvi__place_no_boundary(gvi_stepper *st);
 
 // what is wrong with boundary values, or no formulation covers them
 GVI__COLD gvi_status gvi__check_boundary(gvi_stepper *st, gvi_real t, gvi_real h,
@@ -8998,7 +8948,11 @@ GVI__COLD gvi_status gvi__check_boundary(gvi_stepper *st, gvi_real t, gvi_real h
         return gvi__refuse_call(st, "t, q0, q1 or the guess is not finite");
     if (!gvi__finite(h) || !gvi__nonzero(h))
         return gvi__refuse_call(st, "h is 0, NaN or infinite");
-    if (in->apart) return gvi__done(st, gvi__place_no_boundary(st));
+    if (in->apart) {                               // constraints, a clock
+        gvi__report_status(st, GVI_E_FORMULATION);
+        gvi__unsolved(in, &st->fault);
+        return gvi__done(st, GVI_E_FORMULATION);
+    }
     if ((st->s > 1 && !in->newton.covers) || !gvi__has_curve(st))
         return gvi__done(st, GVI_E_FORMULATION);
     return GVI_OK;
@@ -9156,10 +9110,6 @@ static gvi_status gvi__explain_effects(gvi_stepper *st, gvi_points *at, unsigned
     return gvi__diagnose(st, at, skip | st->in.off | st->in.apart, value);
 }
 
-// what chapters know: 1 if `status` stands; *start: what is wrong where the step starts; M(q)
-static int gvi__place_explain(gvi_stepper *st, gvi_status status, gvi_real *v, gvi_status *start);
-static void gvi__place_probe(gvi_stepper *st, const gvi_points *at);
-
 /* Why did a step fail?  What is singular, NaN or infinite already where it starts is reported as
    that: no h helps.  All else is the step's own, and a shorter one may do.                    */
 GVI__COLD gvi_status gvi__explain_step(gvi_stepper *st, gvi_status status)
@@ -9244,7 +9194,7 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
         gvi__zero((size_t)all, rows);
         // effects may use what M(q) has computed: it comes first, as in a step
         const int varies = in->desc.mass.kind == GVI_MASS_POSITION;
-        if (varies) gvi__place_probe(st, &one);
+        if (varies) (void)gvi__evaluate_mass(st, &one, NULL, NULL);
         gvi_real before = 0, sum = 0;
         int known = 1;
 
@@ -9269,7 +9219,7 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
         }
         if (gvi__nonzero(sum - before)) known = 0;
 
-        if (varies) gvi__place_probe(st, &at);
+        if (varies) (void)gvi__evaluate_mass(st, &at, NULL, NULL);
         if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
         for (int i = 0; i < all; ++i)
             if (i % R < count) {
@@ -9390,7 +9340,7 @@ GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
     case GVI_EXPLICIT:
         return "explicit: Lobatto 2 or kicks, constant mass, effects read only t and q";
     case GVI_POSITIONS:  return "positions: constant mass, effects read only t and q";
-    case GVI_VELOCITIES: return "velocities: constant mass, an effect reads v";
+    case GVI_VELOCITIES: return "velocities: constant mass, a force reads v";
     case GVI_MOMENTA:    return "momenta: r = s, velocity from momentum at each point";
     case GVI_NEWTON:     return "Newton: no fixed point covers this mass, degree and rule";
     case GVI_AUTO: default: return "not set up";
@@ -9409,11 +9359,6 @@ GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st) { return (void)s
    the clock, a constraint, is on.                                                             */
 
 #define GVI__IF(chapter, ...) if (gvi__parts(&st->in) & GVI__IN_##chapter) { __VA_ARGS__; }
-#ifdef GVI_NO_RULES
-#define GVI__RULES(...)
-#else
-#define GVI__RULES(...) GVI__IF(RULES, __VA_ARGS__)
-#endif
 #ifdef GVI_NO_LAGRANGIAN
 #define GVI__LAGRANGIAN(...)
 #else
@@ -9451,12 +9396,17 @@ GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st) { return (void)s
 #define GVI__CONSTRAINTS_ON(...) if (gvi__constrained(st)) { __VA_ARGS__; }
 #endif
 
+#ifdef __GNUC__                                   // what a place is given, not all of it is used
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+#pragma GCC diagnostic ignored "-Wunused-variable"
+#endif
+
 /* ---- set-up ---- */
 
 GVI__COLD int gvi__place_effect(struct gvi__private *in, int e, const char **wrong)
 {
     const gvi_kind kind = in->desc.effects[e].kind;
-    (void)kind, (void)wrong;
 #ifndef GVI_NO_LAGRANGIAN
     if (kind == GVI_LAGRANGIAN) {
         in->parts |= GVI__IN_LAGRANGIAN;
@@ -9488,7 +9438,6 @@ GVI__COLD int gvi__place_effect(struct gvi__private *in, int e, const char **wro
 
 GVI__COLD int gvi__place_mass(struct gvi__private *in, const char **wrong)
 {
-    (void)wrong;
     in->parts |= GVI__IN_MASS;
 #ifndef GVI_NO_MOMENTA
     *wrong = gvi__wrong_in_varying_mass(&in->desc.mass);
@@ -9521,7 +9470,6 @@ GVI__COLD gvi_status gvi__place_rule(struct gvi__private *in, int *order, gvi_fa
     if (status == GVI_OK && *order > 0 && *order < 2*in->desc.degree - 2)
         in->parts |= GVI__IN_RULES;
 #endif
-    (void)rule, (void)fault;
     return status == GVI_OK && !gvi__sums_to_1(rule) ? GVI_E_ORDER : status;
 }
 
@@ -9536,7 +9484,7 @@ GVI__COLD int gvi__place_covers(struct gvi__private *in, gvi_formulation f)
 
     if (holds && (clock || kicks)) return 0;
     if (f == GVI_POSITIONS) return GVI__ITERATION && constant && !kicks && !in->reads_v;
-    if (f == GVI_VELOCITIES) return GVI__ITERATION && constant && !kicks;
+    if (f == GVI_VELOCITIES) return GVI__ITERATION && constant && !kicks && !in->adds_p;
 #ifndef GVI_NO_KICKS
     if (f == GVI_EXPLICIT) return gvi__kicks_cover(in, constant);
 #endif
@@ -9570,7 +9518,6 @@ GVI__COLD gvi_status gvi__place_chosen(struct gvi__private *in, int order, gvi_f
     if (in->con.m > 0x7FFFFFFF/(GVI__ROW(d->degree + 1)*d->n))                   // of G
         wrong = "n, degree and rows of constraints are too large together";
 #endif
-    (void)order;
     if (d->resolution > 0) {
 #ifdef GVI_NO_DIAL
         return GVI_E_FORMULATION;
@@ -9583,18 +9530,8 @@ GVI__COLD gvi_status gvi__place_chosen(struct gvi__private *in, int order, gvi_f
     return wrong ? gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, wrong) : GVI_OK;
 }
 
-// constraints are there, on or off, and cannot be: the fault is the first of them
-GVI__COLD void gvi__place_unsolved(const struct gvi__private *in, gvi_fault *fault)
-{
-    for (int e = in->desc.effect_count - 1; e >= 0; --e) {
-        const gvi_fault found = { e, 0, GVI_FAULT_NONE, NULL };
-        if (in->desc.effects[e].kind >= GVI_CONSTRAINT) *fault = found;
-    }
-}
-
 GVI__COLD void gvi__place_layout(struct gvi__private *in, gvi__arena *a)
 {
-    (void)in, (void)a;
 #ifndef GVI_NO_RULES
     const size_t s = (size_t)in->desc.degree, full = (in->parts & GVI__IN_RULES) != 0;
     in->rules.gamma = gvi__take(a, full, s*s + s + 1);
@@ -9634,24 +9571,15 @@ GVI__COLD int gvi__place_nodes(gvi_stepper *st)
     return 1;
 }
 
-GVI__COLD gvi_status gvi__place_modes(gvi_stepper *st)
-{
-#ifndef GVI_NO_RULES
-    if (st->in.desc.rule.kind == GVI_OWN) return gvi__make_gamma(st);
-#endif
-    return (void)st, GVI_OK;
-}
-
 GVI__COLD gvi_status gvi__place_tables(gvi_stepper *st)
 {
     gvi_status status = GVI_OK;
-    GVI__LAGRANGIAN(gvi__lagrangian_tables(st))
     GVI__MOMENTA(gvi__momenta_tables(st))
     GVI__CONSTRAINTS(status = gvi__set_constraints(st))
 #ifndef GVI_NO_DIAL
     if (st->in.dial.high) gvi__dial_tables(st);
 #endif
-    return (void)st, status;
+    return status;
 }
 
 /* ---- start ---- */
@@ -9660,13 +9588,11 @@ GVI__COLD gvi_status gvi__place_start(gvi_stepper *st, gvi_real t, gvi_real *v)
 {
     GVI__CLOCK(return gvi__clock_start(st, t, v))
     GVI__CONSTRAINTS(return gvi__constraint_start(st, t, v))
-    return (void)st, (void)t, (void)v, GVI_OK;
+    return GVI_OK;
 }
 
 GVI__COLD void gvi__place_started(gvi_stepper *st)
 {
-    (void)st;
-    GVI__LAGRANGIAN(gvi__lagrangian_started(st))
 #ifndef GVI_NO_KICKS
     st->in.kicks.has_force = 0;
 #endif
@@ -9685,7 +9611,6 @@ GVI__COLD void gvi__place_started(gvi_stepper *st)
 GVI__COLD gvi_status gvi__place_switch(gvi_stepper *st, unsigned was)
 {
     gvi_status status = GVI_OK;
-    (void)st;
     GVI__CLOCK(if (st->in.started && st->in.off != was) status = gvi__clock_switch(st, was))
     GVI__CONSTRAINTS(if (status == GVI_OK) status = gvi__constraint_switch(st, was))
     if (status != GVI_OK) return status;
@@ -9695,7 +9620,7 @@ GVI__COLD gvi_status gvi__place_switch(gvi_stepper *st, unsigned was)
 #ifndef GVI_NO_NEWTON
     gvi__newton_forget(st);
 #endif
-    return (void)was, GVI_OK;
+    return GVI_OK;
 }
 
 /* ---- mass ---- */
@@ -9704,19 +9629,12 @@ static gvi_status gvi__place_velocity(gvi_stepper *st, gvi_real t, const gvi_rea
                                       const gvi_real *p, gvi_real *v)
 {
     gvi_points at = gvi__one_point(st, &t, q);
-    (void)at;
     GVI__MASS(if (st->in.desc.mass.velocity) return gvi__momenta_velocity(st, &at, p, v))
     GVI__LAGRANGIAN(return gvi__legendre_newton(st, &at, p, v))
     GVI__MASS(return gvi__momenta_velocity(st, &at, p, v))
     gvi__copy((size_t)st->n, p, v);
     gvi__over_mass(st, v, 1, 1);
     return GVI_OK;
-}
-
-static gvi_status gvi__place_kinetic(gvi_stepper *st, gvi_points *at)
-{
-    GVI__MASS(if (st->in.desc.mass.kind == GVI_MASS_POSITION) return gvi__momenta_kinetic(st, at))
-    return (void)st, (void)at, GVI_OK;
 }
 
 // M_ii, or p_i/v_i where the effects alone make the mass
@@ -9740,24 +9658,14 @@ static gvi_real gvi__place_inertia(const gvi_stepper *st, int i)
     return gvi__nonzero(m) && gvi__finite(m) ? GVI_ABS(m) : 1;
 }
 
-static int gvi__place_gamma(const gvi_stepper *st, gvi_real *y)
-{
-    GVI__RULES(
-        const gvi_real *gamma = st->in.rules.gamma;
-        gvi_lu_solve(st->s, gamma, gamma + st->s*st->s, y);
-        return 1)
-    return (void)st, (void)y, 0;
-}
-
 /* ---- solve ---- */
 
 static int gvi__place_solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query,
                             gvi_status *status)
 {
-    (void)from, (void)h, (void)query, (void)status;
     GVI__KICKS(*status = gvi__kicks_solve(st, from, h, query); return 1)
     GVI__NEWTON(return gvi__newton_instead(st, from, h, query, status))
-    return (void)st, 0;
+    return 0;
 }
 
 static gvi_status gvi__place_turn(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query,
@@ -9769,15 +9677,8 @@ static gvi_status gvi__place_turn(gvi_stepper *st, const gvi__origin *from, gvi_
 #ifndef GVI_NO_NEWTON
     return gvi__newton_turn(st, from, h, query, status);
 #else
-    return (void)st, (void)from, (void)h, (void)query, status;
+    return status;
 #endif
-}
-
-static int gvi__place_steps(gvi_stepper *st, gvi_real h, int count)
-{
-    (void)h, (void)count;
-    GVI__KICKS(return gvi__kick_steps(st, h, count))
-    return (void)st, 0;
 }
 
 /* ---- the fixed point ---- */
@@ -9785,23 +9686,14 @@ static int gvi__place_steps(gvi_stepper *st, gvi_real h, int count)
 static void gvi__place_stages(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                               struct gvi__stage *stage)
 {
-    (void)st, (void)from, (void)h, (void)stage;
     GVI__MOMENTA(gvi__momenta_stages(st, from, stage))
-    GVI__LAGRANGIAN(gvi__lagrangian_stages(st, from, h, stage))
     GVI__CONSTRAINTS(gvi__constraint_stages(st, from, h, stage))
-}
-
-static void gvi__place_predictor(gvi_stepper *st, gvi_real alpha, gvi_real beta)
-{
-    (void)st, (void)alpha, (void)beta;
-    GVI__CONSTRAINTS_ON(gvi__constraint_predictor(st, alpha, beta))
 }
 
 static gvi_status gvi__place_predict(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                      int extrapolate)
 {
     gvi_real rate = 1;
-    (void)st, (void)from, (void)h, (void)rate, (void)extrapolate;
     GVI__CLOCK_ON(
         const gvi_status status = gvi__clock_predict(st, from, h, &rate);
         if (status != GVI_OK) return status)
@@ -9811,30 +9703,9 @@ static gvi_status gvi__place_predict(gvi_stepper *st, const gvi__origin *from, g
     return GVI_OK;
 }
 
-static void gvi__place_before_rows(gvi_stepper *st, const gvi__stage *stage)
-{
-    (void)st, (void)stage;
-    GVI__LAGRANGIAN(gvi__lagrangian_before(st))
-    GVI__CONSTRAINTS_ON(gvi__constraint_before(st, stage))
-}
-
-static gvi_real gvi__place_between(gvi_stepper *st)
-{
-    GVI__MOMENTA(return gvi__velocities_again(st))
-    gvi__count(&st->counters.velocities, st->r);
-    return 0;
-}
-
-static void gvi__place_behind_rows(gvi_stepper *st, const gvi__stage *stage, gvi_real sum)
-{
-    (void)st, (void)stage, (void)sum;
-    GVI__CONSTRAINTS_ON(gvi__constraint_behind(st, stage, sum))
-}
-
 static gvi_status gvi__place_evaluate(gvi_stepper *st, const gvi__origin *from, gvi_points *at)
 {
     gvi_status status = GVI_OK;
-    (void)from;
     GVI__MOMENTA(status = gvi__momenta_evaluate(st, at))
     if (status != GVI_OK) return status;
     GVI__LAGRANGIAN(
@@ -9842,22 +9713,14 @@ static gvi_status gvi__place_evaluate(gvi_stepper *st, const gvi__origin *from, 
         gvi__clear(st->n, st->in.R, st->in.zeros[0], at->dldv))
     GVI__CLOCK_ON(return gvi__clock_evaluate(st, from, at))
     status = gvi__effects(st, at, 0, NULL);
-    GVI__LAGRANGIAN(if (status == GVI_OK) status = gvi__lagrangian_verdict(st))
     GVI__CONSTRAINTS_ON(if (status == GVI_OK) status = gvi__constraint_values(st, from))
     GVI__MASS(if (status == GVI_OK && st->in.momenta.mass) status = gvi__mass_gradient(st, at))
     return status;
 }
 
-static void gvi__place_last(gvi_stepper *st, const gvi__origin *from, const gvi__stage *stage)
-{
-    (void)st, (void)from, (void)stage;
-    GVI__CONSTRAINTS_ON(gvi__constraint_last(st, stage, from->q))
-}
-
 static int gvi__place_judge(gvi_stepper *st, const struct gvi__progress *p, gvi_real D,
                             int *patience)
 {
-    (void)st, (void)p, (void)D, (void)patience;
     GVI__CONSTRAINTS_ON(
         *patience = gvi__patience(st, p);
         return gvi__constraint_judge(st, p, D))
@@ -9865,50 +9728,15 @@ static int gvi__place_judge(gvi_stepper *st, const struct gvi__progress *p, gvi_
     return GVI__GO_ON;
 }
 
-static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m)
-{
-    (void)st, (void)h, (void)i, (void)m;
-    GVI__CONSTRAINTS_ON(return gvi__constraint_push(st, h, i, m))
-    return 0;
-}
-
 /* ---- the end of a step ---- */
 
 static int gvi__place_increments(gvi_stepper *st, const gvi__origin *from)
 {
-    (void)st, (void)from;
     GVI__CLOCK_ON(gvi__clock_increments(st))
     GVI__CONSTRAINTS_ON(gvi__constraint_momenta(st))
     GVI__MOMENTA(
         gvi__sum_rows(st, st->in.work.V, from->q_low, st->in.step.q, st->in.step.q_low);
         return 1)
-    return 0;
-}
-
-static gvi_real gvi__place_bow(const gvi_stepper *st, int i)
-{
-    const struct gvi__private *in = &st->in;
-    const int R = in->R;
-    GVI__CONSTRAINTS_ON(return gvi__constraint_bow(st, i))
-    gvi_real bow = gvi__bow(R, in->table.c, in->sized.hb, in->work.F + i*R);
-    GVI__LAGRANGIAN(bow -= gvi__lagrangian_bow(st, i))
-    return bow;
-}
-
-static gvi_status gvi__place_finish(gvi_stepper *st, const gvi__origin *from)
-{
-    (void)st, (void)from;
-    GVI__CONSTRAINTS_ON(return gvi__project(st, from, 0))
-    return GVI_OK;
-}
-
-static int gvi__place_again(gvi_stepper *st)
-{
-    (void)st;
-    GVI__CONSTRAINTS(
-        const int again = st->in.con.again;        // with columns that were found
-        st->in.con.again = 0;
-        return again)
     return 0;
 }
 
@@ -9924,12 +9752,11 @@ static gvi_status gvi__place_accept(gvi_stepper *st)
             return GVI_E_SINGULAR;
         st->fault = fault)
 #endif
-    return (void)st, status;
+    return status;
 }
 
 static void gvi__place_commit(gvi_stepper *st, gvi_real h)
 {
-    (void)st, (void)h;
     GVI__CLOCK(gvi__clock_commit(st))
     GVI__CONSTRAINTS(gvi__commit_constraints(st, h))
     GVI__KICKS(gvi__kicks_commit(st))
@@ -9941,64 +9768,11 @@ GVI__COLD void gvi__place_failed(gvi_stepper *st)
 #ifndef GVI_NO_NEWTON
     gvi__newton_forget(st);
 #endif
-    (void)st;
 }
 
-static void gvi__place_rotate(gvi_stepper *st)
-{
-    (void)st;
-    GVI__LAGRANGIAN(
-        struct gvi__lagrangian *l = &st->in.lagrangian;
-        gvi__rotate(&l->older_A, &l->last_A, &l->A))
-}
-
-/* ---- queries ---- */
-
-static int gvi__place_line(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
-{
-    (void)st, (void)tau, (void)q, (void)v;
-    GVI__KICKS(gvi__kicks_line(st, tau, q, v); return 1)
-    return 0;
-}
-
-static void gvi__place_held(const gvi_stepper *st, gvi_real tau, const gvi_real *phi,
-                            const gvi_real *Phi, gvi_real *q, gvi_real *v)
-{
-    (void)st, (void)tau, (void)phi, (void)Phi, (void)q, (void)v;
-    GVI__CONSTRAINTS(if (st->in.stages == 1 && !st->in.has_velocity && st->in.con.kept)
-        gvi__constraint_held(st, tau, phi, Phi, q, v))
-}
-
-static gvi_status gvi__place_curve(gvi_stepper *st, const gvi_real *q, gvi_real *v)
-{
-    (void)st, (void)q, (void)v;
-    GVI__CLOCK(return gvi__clock_curve(st, q, v))
-    return GVI_OK;
-}
-
-#ifndef GVI_NO_BOUNDARY
-GVI__COLD gvi_status gvi__place_no_boundary(gvi_stepper *st)
-{
-    GVI__CONSTRAINTS(return gvi__refuse_constraints(st))
-    return (void)st, GVI_E_FORMULATION;
-}
+#ifdef __GNUC__
+#pragma GCC diagnostic pop
 #endif
-
-#ifndef GVI_NO_EXPLAIN
-GVI__COLD int gvi__place_explain(gvi_stepper *st, gvi_status status, gvi_real *v, gvi_status *start)
-{
-    (void)st, (void)status, (void)v, (void)start;
-    GVI__CONSTRAINTS(return gvi__constraint_explain(st, status, v, start))
-    return 0;
-}
-
-GVI__COLD void gvi__place_probe(gvi_stepper *st, const gvi_points *at)
-{
-    (void)st, (void)at;
-    GVI__MASS((void)gvi__evaluate_mass(st, at, NULL, NULL))
-}
-#endif
-
 #endif /* GVI_IMPLEMENTATION */
 
 #ifdef __GNUC__
