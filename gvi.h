@@ -774,8 +774,8 @@ typedef enum gvi_formulation {
                              With m constraints, read n + m for n               */
     GVI_EXPLICIT   = 1,
     GVI_POSITIONS  = 2,
-    GVI_VELOCITIES = 3,
-    GVI_MOMENTA    = 4,
+    GVI_VELOCITIES = 3,   /* forces that read v; Lagrangian terms take momenta or Newton */
+    GVI_MOMENTA    = 4,   /* r = s                                                    */
     GVI_NEWTON     = 5    /* last: GVI_AUTO takes the first that covers the scene */
 } gvi_formulation;
 
@@ -9296,7 +9296,9 @@ GVI__COLD const char *gvi__why_no_formulation(const gvi_stepper *st)
     if (in->chosen == GVI_NEWTON) return "iterations is given, and this takes Newton's method";
     if (kicks) return "kicks are for constant mass and effects that read only t and q";
     if (clock) return "a clock needs r = s, and a mass or mass.velocity";
-    if (in->desc.formulation != GVI_AUTO) 
+    if (in->desc.formulation == GVI_VELOCITIES && in->adds_p)
+        return "velocities take no Lagrangian terms: GVI_MOMENTA does where r = s, GVI_NEWTON else";
+    if (in->desc.formulation != GVI_AUTO)
         return "the pinned formulation does not cover this scene, or a macro leaves it out";
     return "what this scene needs is left out by a macro GVI_NO_...";
 }
