@@ -431,6 +431,9 @@ GVI__MACROS(push_macro)
 #if defined(GVI_NO_MOMENTA) && !defined(GVI_NO_CLOCK)
 #define GVI_NO_CLOCK
 #endif
+#if defined(GVI_NO_MOMENTA) && defined(GVI_NO_NEWTON) && !defined(GVI_NO_LAGRANGIAN)
+#define GVI_NO_LAGRANGIAN
+#endif
 #if (defined(GVI_NO_NEWTON) || defined(GVI_NO_OUTPUT)) && !defined(GVI_NO_BOUNDARY)
 #define GVI_NO_BOUNDARY
 #endif
