@@ -38,6 +38,18 @@ prices: | $(FIRST)
 chapters bound float instructions ensemble usable languages boards firmware: | $(FIRST)
 	$(STEP) $@ sh tests/tools/$@.sh $(BUILD) $(RECORD)
 
+#: everyday     each scene of tests/everyday written in each way, in all types: the same motion, status and cost (two minutes of one core)
+#: everyday-drawn scenes and ways drawn anew for three seconds; SEED=5: those again
+EVERYDAY = $(addprefix $(BUILD)/everyday/,double float long)
+everyday: $(EVERYDAY)
+	$(STEP) $@ sh -c 'bad=0; for i; do "$$i" || bad=1; done; exit $$bad' - $^
+everyday-drawn: $(BUILD)/everyday/double
+	$(STEP) $@ $< draw 3 $(SEED)
+$(EVERYDAY): private CFLAGS = -O1
+$(EVERYDAY): $(BUILD)/everyday/%: tests/everyday/everyday.c $(BUILD)/gvi-%.o
+	@mkdir -p $(@D)
+	$(Q)$(COMPILE) '-DGVI_REAL=$(if $(findstring long,$*),long double,$*)' -DGVI_IMPLEMENTED $(TESTFLAGS) $< $(BUILD)/gvi-$*.o -o $@ $(LDLIBS)
+
 #: sanitize     tests and examples under the address and undefined behaviour sanitizers
 # By clang where there is one: it alone sees arithmetic on NULL.
 # Not test_advise: its sweeps are minutes of calls that the others make too.
