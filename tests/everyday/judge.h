@@ -492,10 +492,11 @@ static void judge_measures(real of_period)
 
 /* ---- everything of a scene */
 
-/* A clock needs r = s */
 static int covers(const scene *s, const method *m)
 {
-    return !has_clock(s) || (m->rule == GVI_GAUSS && !m->points);
+    if (m->rule == GVI_KICKS)
+        return !s->mass && !s->massless && !has_rows(s) && !has_clock(s) && !has_kind(s, GVI_FORCE) && !has_kind(s, GVI_LAGRANGIAN);
+    return !has_clock(s) || (m->rule == GVI_GAUSS && !m->points);                 /* a clock needs r = s */
 }
 
 static void begin_scene(const scene *s)
@@ -513,7 +514,7 @@ static double dial_of(int digits) { return pow(10, KIND == 1 ? -digits/2 : -digi
 static void all_ways_of(const scene *s)
 {
     static const real parts[] = { R(1)/8, R(1)/32, R(1)/256, R(1e-4), R(1e-6) };
-    static const method methods[] = { { 3, GVI_GAUSS, 0 }, { 4, GVI_LOBATTO, 0 }, { 6, GVI_GAUSS, 7 }, { 12, GVI_GAUSS, 0 }, { 1, GVI_LOBATTO, 0 } };
+    static const method methods[] = { { 3, GVI_GAUSS, 0 }, { 4, GVI_LOBATTO, 0 }, { 6, GVI_GAUSS, 7 }, { 12, GVI_GAUSS, 0 }, { 1, GVI_LOBATTO, 0 }, { 1, GVI_KICKS, 3 } };
     static const method usual = { 8, GVI_GAUSS, 0 };
     if (shown_scene && !strstr(s->name, shown_scene)) return;
     begin_scene(s);

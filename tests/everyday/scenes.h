@@ -448,6 +448,10 @@ LAW(heavy)                              /* weight at body axis 3: z of it is (w^
     *x->value += par[2]*z;
 }
 
+/* ---- L as it is typed: typed.c, typed.cpp */
+
+law c_kepler, c_double_pendulum, c_charge, cxx_kepler, cxx_double_pendulum, cxx_charge;
+
 /* ---- the same motion in the coordinates of another scene */
 
 CHART(from_polar)
@@ -571,6 +575,17 @@ static const scene scenes[] = {
     { "loudspeaker from rest", 2, { L_(coil), V_(cone) }, { R(.5), 1 }, { 0 }, .period = R(3.14), .massless = 1 },
     { "loudspeaker by M(q)", 2, { V_(cone) }, { R(.5), 0 }, { 0, 1 }, .period = R(3.14), .mass = coil_mass, .gradient = coil_gradient,
       .tags = EXACT, .like = "loudspeaker" },
+
+    { "kepler, typed in C", 2, { L_(c_kepler) }, { R(.4), 0 }, { 0, 2 }, .period = TURN, .massless = 1, .tags = EXACT, .like = "kepler" },
+    { "kepler, typed in C++", 2, { L_(cxx_kepler) }, { R(.4), 0 }, { 0, 2 }, .period = TURN, .massless = 1, .tags = EXACT, .like = "kepler" },
+    { "double pendulum, typed in C", 2, { L_(c_double_pendulum) }, { R(.3), R(.2) }, { 1, -2 }, .period = 1, .massless = 1,
+      .tags = EXACT, .like = "double pendulum" },
+    { "double pendulum, typed in C++", 2, { L_(cxx_double_pendulum) }, { R(.3), R(.2) }, { 1, -2 }, .period = 1, .massless = 1,
+      .tags = EXACT, .like = "double pendulum" },
+    { "charge and spring, typed in C", 2, { L_(c_charge) }, { 1, R(.5) }, { 0 }, .period = R(3.88), .massless = 1,
+      .tags = EXACT, .like = "charge and spring at rest off it" },
+    { "charge and spring, typed in C++", 2, { L_(cxx_charge) }, { 1, R(.5) }, { 0 }, .period = R(3.88), .massless = 1,
+      .tags = EXACT, .like = "charge and spring at rest off it" },
 
     { "chain of eight", 8, { V_(fermi_pasta_ulam) }, { R(.3), R(.5), R(.6), R(.4), R(.1), R(-.2), R(-.3), R(-.1) }, { 0 }, .period = R(3.14) },
     { "chain of eight, one moved", 8, { V_(fermi_pasta_ulam) }, { R(.5) }, { 0 }, .period = R(3.14) },

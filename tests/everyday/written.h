@@ -327,6 +327,9 @@ static void list_mass(listing *a, const written *w)
     for (int i = 0; i < n; ++i) a->matrix[i] = a->matrix[i*n + i];
 }
 
+/* McLachlan's kicks and drifts of order 2, symmetric: b, 1 - 2b, b at 1/6, 1/2, 5/6 */
+static const real kick_times[] = { R(1)/6, R(.5), R(5)/6 }, kick_weights[] = { R(.3), R(.4), R(.3) };
+
 static void list_all(listing *a, const written *w)
 {
     memset(a, 0, sizeof *a);
@@ -334,6 +337,7 @@ static void list_all(listing *a, const written *w)
     a->desc.degree = w->degree;
     a->desc.rule.kind = w->rule;
     a->desc.rule.points = w->points;
+    if (w->rule == GVI_KICKS) a->desc.rule.nodes = kick_times, a->desc.rule.weights = kick_weights;
     a->desc.formulation = w->formulation;
     a->desc.resolution = w->dial;
     a->desc.effects = a->effects;
