@@ -196,11 +196,11 @@ static void measure_growth(void)
 
 /* ---- the best that is pinned */
 
-typedef struct best { int have; outcome end; double fixed, any, steps; int by; gvi_status status; } best;
+typedef struct best { int have; outcome end; double fixed, any, steps; int by; unsigned served; gvi_status status; } best;
 
 static best best_pinned(const written *as, const plan *p, const char *name)
 {
-    best b = { 0, { 0 }, INFINITY, INFINITY, INFINITY, 0, GVI_OK };
+    best b = { 0, { 0 }, INFINITY, INFINITY, INFINITY, 0, 0, GVI_OK };
     for (int form = GVI_EXPLICIT; form <= GVI_NEWTON; ++form) {
         written w = *as;
         w.formulation = (gvi_formulation)form;
@@ -219,6 +219,7 @@ static best best_pinned(const written *as, const plan *p, const char *name)
         }
         if (!b.have) b.end = a;
         b.have = 1;
+        b.served |= 1u << form;
         b.any = fmin(b.any, a.cost);
         if (form < GVI_NEWTON || b.fixed == INFINITY) b.fixed = fmin(b.fixed, a.cost), b.by = form;
         b.steps = fmin(b.steps, (double)a.steps);
@@ -305,6 +306,22 @@ static void judge_way(const way *x, const written *base, const plan *p, const be
         const best own = best_pinned(&w, p, NULL);
         judge_cost(x->name, &a, &own);
     }
+}
+
+/* Each formulation that serves the plain scene serves it elsewhere */
+static void judge_pinned_elsewhere(const written *base, const plan *p, const best *b)
+{
+    static void (*const frames[])(written *) = { planets, all_of_it };
+    for (int k = 0; k < 2; ++k)
+        for (int form = GVI_EXPLICIT; form <= GVI_NEWTON; ++form) {
+            written w = *base;
+            if (!(b->served >> form & 1)) continue;
+            frames[k](&w);
+            w.formulation = (gvi_formulation)form;
+            const outcome a = written_run("pinned, other frames", &w, p);
+            if (is_refused("pinned, other frames", &a, GVI_OK)) continue;
+            is_off("pinned, other frames", &a, distance(&a, 1, &b->end), roundings(&w, a.steps));
+        }
 }
 
 /* Ways of driving: the same steps; back again; half of it and the rest */
@@ -403,6 +420,7 @@ static void fixed_steps(const method *m, real of_period, int thorough)
         if (fits(ways + e, s) && (thorough || ways[e].frame)) judge_way(ways + e, &w, &p, &b, plain.status);
     if (plain.status) return;
     if (thorough) judge_drives(&w, &p, &plain);
+    if (thorough) judge_pinned_elsewhere(&w, &p, &b);
     if (s->like) judge_like(m, &p, &plain);
 }
 

@@ -596,6 +596,8 @@ static const scene scenes[] = {
     { "sun and planets", 6, { V_(bodies_attract) }, { 0, 0, 1, 0, 0, R(1.8) }, { 0, 0, 0, 1, R(-.7), 0 }, .period = TURN, .par = { 0, 0, 0, R(.001), R(.0003) }, .m = { 1, 1, R(.001), R(.001), R(.0003), R(.0003) } },
     { "spinning body", 4, { { 0, NULL, 0 } }, { 1, 0, 0, 0 }, { 0, R(.05), 1, R(.05) }, .period = 3,
       .mass = quaternion_mass, .gradient = quaternion_gradient },
+    { "spinning body, length 1", 4, { G_(ball, 1) }, { 1, 0, 0, 0 }, { 0, R(.05), 1, R(.05) }, .period = 3,
+      .mass = quaternion_mass, .gradient = quaternion_gradient, .like = "spinning body" },
     { "heavy top", 4, { V_(heavy) }, { R(.96), R(.28), 0, 0 }, { R(-.14), R(.48), 0, 2 }, .period = R(1.5), .par = { 0, 0, 1 },
       .mass = quaternion_mass, .gradient = quaternion_gradient },
 
