@@ -47,14 +47,15 @@ everyday-drawn: $(BUILD)/everyday/double
 	$(STEP) $@ $< draw 3 $(SEED)
 $(EVERYDAY): private CFLAGS = -O1
 REAL_OF = '-DGVI_REAL=$(if $(findstring long,$*),long double,$*)'
+HAS_CXX = $(shell command -v $(CXX) 2>/dev/null)
 $(EVERYDAY): $(BUILD)/everyday/%: tests/everyday/everyday.c $(BUILD)/everyday/typed-%.o $(BUILD)/gvi-%.o
-	$(Q)$(COMPILE) $(REAL_OF) -DGVI_IMPLEMENTED $(TESTFLAGS) $< $(filter %.o,$^) -o $@ $(LDLIBS)
-# C and C++ in one object
+	$(Q)$(COMPILE) $(REAL_OF) -DGVI_IMPLEMENTED $(if $(HAS_CXX),,-DWITHOUT_CXX) $(TESTFLAGS) $< $(filter %.o,$^) -o $@ $(LDLIBS)
+# C and, where it is there, C++ in one object
 $(BUILD)/everyday/typed-%.o: tests/everyday/typed.c tests/everyday/typed.cpp tests/everyday/typed.h examples/tools/lagrangian.h gvi.h
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c99 $(FLAGS) $(TESTFLAGS) -O1 $(REAL_OF) -c $< -o $@.c.o
-	$(Q)$(CXX) -std=c++11 $(FLAGS) $(TESTFLAGS) -O1 $(REAL_OF) -c tests/everyday/typed.cpp -o $@.cpp.o
-	$(Q)$(LD) -r $@.c.o $@.cpp.o -o $@
+	$(Q)$(if $(HAS_CXX),$(CXX) -std=c++11 $(FLAGS) $(TESTFLAGS) -O1 $(REAL_OF) -c tests/everyday/typed.cpp -o $@.cpp.o)
+	$(Q)$(LD) -r $@.c.o $(if $(HAS_CXX),$@.cpp.o) -o $@
 
 #: sanitize     tests and examples under the address and undefined behaviour sanitizers
 # By clang where there is one: it alone sees arithmetic on NULL.

@@ -19,6 +19,7 @@ typedef struct known {
 #define LEGENDRE "gvi_velocity from v = 0 where p is not 0, or by terms of a mass alone"
 #define NEAR_0 "a row of constraints whose own terms vanish"
 #define NEWTON_FLOOR "Newton's method goes on where nothing but rounding is left"
+#define AT_REST_ON_ROWS "a start at rest on rows that move: g's rate is judged by the kinetic energy, which is 0"
 #define CLOCK_FLOOR "a clock's rounding, far from the origin"
 #define EXACT_0 "rows that are exactly 0 in one frame take two iterations less"
 #define DIAL_FLOOR "by the dial: rounding of p beside A taken for the curve's"
@@ -32,7 +33,7 @@ static known known_faults[] = {
     { "", "starts at 0", "", "no solution", REFUSED, 0, { 11, 21, 5 }, NEAR_0, 0 },
     { "parallelogram", "starts at 0", "", "as accurate", REFUSED, 0, { 0, 1, 0 }, NEAR_0, 0 },
     { "", "starts at 0", "", "", DEAR, 0, { 14, 19, 8 }, NEAR_0, 0 },
-    { "", "speed, starts at rest", "", "not on a constraint", REFUSED, 0, { 0, 15, 10 }, "a start at rest on rows that move: g's rate is judged by the kinetic energy, which is 0", 0 },
+    { "", "speed, starts at rest", "", "not on a constraint", REFUSED, 0, { 0, 15, 10 }, AT_REST_ON_ROWS, 0 },
     { "with a clock", "origin", "", "no solution", REFUSED, 0, { 4, 8, 2 }, CLOCK_FLOOR, 0 },
     { "", "", "", "formulation 5", DEAR, 0, { 21, 127, 61 }, NEWTON_FLOOR, 0 },
     { "polar", "", "", "no solution", REFUSED, 0, { 4, 4, 2 }, NEWTON_AT_REST, 0 },

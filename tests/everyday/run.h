@@ -38,7 +38,7 @@ static void by_pairs(gvi_stepper *st, const plan *p)               /* queries in
         if (gvi_step(st, p->h) != GVI_OK) return;
         gvi_velocity(st, v);
         gvi_energy(st, &energy);
-        gvi_curve(st, R(.3), q, v);
+        if (st->order) gvi_curve(st, R(.3), q, v);         /* kicks have none */
     }
 }
 
