@@ -1678,12 +1678,10 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 
 // fixed point: contraction of an iteration; how many in a row say what one cannot
 #define GVI__POOR ((gvi_real)0.5)          // it gains less than a bit
-#define GVI__SLOW (GVI__DIG/2)             // to rounding by less than 2 bits: errors grew first
 #define GVI__FAR ((gvi_real)0.25)          // of the motion, a change: the units are an overshoot's
 #define GVI__LEAST ((gvi_real)0.9)         // of the least change so far: a new one
-#define GVI__FEW_POOR 2                    // iterations that are poor: diverges
-#define GVI__MANY_POOR 4                   // the same while changes are far: a cosine's terms grow
-#define GVI__STAGNANT 4                    // iterations without a new least: rounding
+#define GVI__SLOW (GVI__DIG/2)             // iterations: no more of them if there is another solver
+#define GVI__PATIENCE 3                    // changes that do not fall: diverges
 #define GVI__NEARER 6                      // halvings, where a domain or Newton's residual wants it
 #define GVI__BY_NEWTON 64                  // steps until the fixed point is tried again
 
@@ -1705,13 +1703,11 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 // the dial, in rungs, four an octave
 #define GVI__BAND 4                        // room at which h stays; and the most that it grows
 #define GVI__MARGIN ((gvi_real)0.5)        // of it, kept back
-#define GVI__DOUBT ((gvi_real)0.5)         // rungs below 0: by a loss that is the first
 #define GVI__SHY 2                         // rungs of room kept back by a step that grows
 #define GVI__MANY (4 + GVI__DIG/4)         // iterations from which on a longer step does not pay
 #define GVI__WAIT 4                        // steps until a length that failed is tried again
 #define GVI__SHORTER 3                     // lengths tried before Newton's method, 3 rungs apart
 #define GVI__STEADY ((gvi_real)0.64)       // of a fall of modes, squared, that one pair alone shows
-#define GVI__CANCELS 16                    // s^2 eps: rounding of forces that cancel
 #define GVI__FALL 8                        // the most that it shrinks, and after a failure
 #define GVI__RESTS 4096                    // times slower than the fastest: judged with it
 #define GVI__PULLED 256                    // roundings of g, or of forces of constraint
@@ -2297,8 +2293,8 @@ static void gvi__place_stages(gvi_stepper *st, const gvi__origin *from, gvi_real
 static gvi_status gvi__place_predict(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                      int extrapolate);
 static gvi_status gvi__place_evaluate(gvi_stepper *st, const gvi__origin *from, gvi_points *at);
-static int gvi__place_judge(gvi_stepper *st, const struct gvi__progress *p, gvi_real D,
-                            int *patience);
+static int gvi__place_moves(const gvi_stepper *st);
+static int gvi__place_holds(const gvi_stepper *st);
 
 // 6) increments, 1 if dq is made; 7) is the step accepted?  Commit; it failed
 static int gvi__place_increments(gvi_stepper *st, const gvi__origin *from);
@@ -2340,10 +2336,12 @@ static int gvi__place_line(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi
 static gvi_status gvi__place_curve(gvi_stepper *st, const gvi_real *q, gvi_real *v);
 static int gvi__clock_is_on(const gvi_stepper *st);
 static void gvi__clock_velocities(const gvi_stepper *st);
+static gvi_real gvi__clock_rate(const gvi_stepper *st);
 #else
 #define gvi__place_curve(st, q, v) GVI_OK
 #define gvi__clock_is_on(st) 0
 #define gvi__clock_velocities(st) ((void)0)
+#define gvi__clock_rate(st) 1
 #endif
 #ifndef GVI_NO_CONSTRAINTS
 static void gvi__place_predictor(gvi_stepper *st, gvi_real alpha, gvi_real beta);
@@ -3728,60 +3726,83 @@ static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from,
 
 enum { GVI__GO_ON, GVI__DONE, GVI__ONCE_MORE, GVI__DIVERGES, GVI__NOT_FINITE };
 
-/* Where an iteration stands, in squares: the changes of all rows in the last iterations, and the
-   least so far; the contraction of the last step, 1 if there is none, or 2 if no ratio counts;
-   gvi__noise when it was last made; how often no new least was seen, or no good contraction; are
-   units to be made anew?                                                                      */
+/* Where an iteration stands, in squares: the changes of all rows in the last two iterations; the
+   contraction of the last step, 1 if there is none, or 2 if no ratio counts; the least change so
+   far.  The excess over the floor when it was last made; how many changes in a row were no new
+   least; how many were poor, and the excess with them; are units to be made anew?             */
 typedef struct gvi__progress {
-    gvi_real before, earlier, before_earlier, least, ratio, noise;
-    int      used, stagnant, growing, rescale;
+    gvi_real before, earlier, ratio, least, excess;
+    int      used, idle, poor, rescale;
 } gvi__progress;
 
-/* The largest change of a row that is beyond a few units of the last place of its largest
-   value, in units of 32 eps of the largest amplitude; 0: there is none.  An amplitude is |Q_i|
-   times sqrt(M_ii), with h V_i or h P_i/M_ii in place of Q_i for those rows.  Up to 1 a row
-   that does not settle is nothing but noise, where large forces cancel: a light body midway
-   between two heavy ones.                                                                     */
-GVI__CALLED gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *stage)
+// the largest of row i and its base
+static gvi_real gvi__size_of_row(const gvi_stepper *st, const gvi__stage *stage, int i)
 {
-    const int R = st->in.R, n = st->n, dense = st->in.desc.mass.kind == GVI_MASS_DENSE,
-              parts = gvi__parts(&st->in) != 0;
-    gvi_real largest = 0, noise = 0;
+    gvi_real size = GVI_ABS(stage->base[i]);
+    for (int j = 0; j < st->r; ++j)
+        size = gvi__larger(GVI_ABS(stage->rows[i*st->in.R + j]), size);
+    return size;
+}
 
-    for (int k = 0; k < st->in.stages; ++k)
-        for (int i = 0; i < n && !stage[k].quiet; ++i) {
-            const gvi_real *row = stage[k].rows + i*R,
-                           m = parts ? gvi__place_inertia(st, i)
-                                     : GVI_ABS(st->in.mass.matrix[dense ? i*(n + 1) : i]);
-            gvi_real size = GVI_ABS(stage[k].base[i]), unit = 1, change = 0;
-            if (stage[k].of != GVI__OF_Q) unit = GVI_ABS(h);
-            if (stage[k].of == GVI__OF_P) unit /= m;
-            unit *= GVI_SQRT(m);
-            for (int j = 0; j < st->r; ++j) size = gvi__larger(GVI_ABS(row[j]), size);
-            if (stage[k].scale[i] > 0) change = GVI_SQRT(stage[k].change[i])/stage[k].scale[i];
-            largest = gvi__larger(unit*size, largest);
+// what makes an amplitude of row i: |Q_i| sqrt(M_ii), with h V_i or h P_i/M_ii in place of Q_i
+static gvi_real gvi__amplitude_of(const gvi_stepper *st, gvi_real h, const gvi__stage *stage,
+                                  gvi_real m)
+{
+    gvi_real unit = GVI_SQRT(m);
+    if (stage->of != GVI__OF_Q) unit *= GVI_ABS(h);
+    if (stage->of == GVI__OF_P) unit *= gvi__clock_rate(st)/m;
+    return unit;
+}
 
-            const gvi_real push = parts ? gvi__place_push(st, h, i, m) : 0;
-            if (!(change > GVI__PLACE*GVI__EPS*size)) continue;
-            if (change <= push) change *= GVI__EPS;              // counts next to nothing
-            noise = gvi__larger(unit*change, noise);
+static gvi_real gvi__inertia(const gvi_stepper *st, int i)
+{
+    const int dense = st->in.desc.mass.kind == GVI_MASS_DENSE;
+    if (gvi__parts(&st->in)) return gvi__place_inertia(st, i);
+    return GVI_ABS(st->in.mass.matrix[dense ? i*(st->n + 1) : i]);
+}
+
+/* THE FLOOR: what rounding alone changes of a row from one iteration to the next, and how far the
+   changes exceed it, the largest of all rows.  A row's own floor is 4 eps of its largest value.
+   With `all` it is 32 eps of the largest amplitude: where the iteration contracts, h^2 dF/dQ between
+   amplitudes is below 1, so the rounding of one coordinate makes no more than that of another: a
+   light body midway between two heavy ones.  Both with what constraints add.                  */
+GVI__CALLED gvi_real gvi__excess(const gvi_stepper *st, gvi_real h, const gvi__stage *stage, int all)
+{
+    const int parts = gvi__parts(&st->in) != 0;
+    gvi_real largest = 0, excess = 0;
+
+    for (const gvi__stage *y = stage; all && y < stage + st->in.stages; ++y)
+        for (int i = 0; i < st->n && !y->quiet; ++i) {
+            const gvi_real unit = gvi__amplitude_of(st, h, y, gvi__inertia(st, i));
+            largest = gvi__larger(unit*gvi__size_of_row(st, y, i), largest);
         }
-    return noise > 0 ? noise/(GVI__NOISE*GVI__EPS*largest) : 0;
+
+    for (const gvi__stage *y = stage; y < stage + st->in.stages; ++y)
+        for (int i = 0; i < st->n && !y->quiet; ++i) {
+            if (!(y->scale[i] > 0) || !(y->change[i] > 0)) continue;
+            const gvi_real m = gvi__inertia(st, i), unit = gvi__amplitude_of(st, h, y, m),
+                           change = unit*(GVI_SQRT(y->change[i])/y->scale[i]),
+                           floor = all ? GVI__NOISE*GVI__EPS*largest
+                                       : GVI__PLACE*GVI__EPS*(unit*gvi__size_of_row(st, y, i)),
+                           push = parts ? GVI_SQRT(m)*gvi__place_push(st, h, i, m) : 0;
+            excess = gvi__larger(change/(floor + push), excess);
+        }
+    return excess;
 }
 
 /* Settled: the next change, D times the ratio of the last two, is within the tolerance: of all
-   rows, and of each, so that none hides behind a larger one.  One ratio may be luck: unless D is
-   rounding, the one before, or that of the last step, must agree; after an attempt that failed
-   there is none, and D itself must be within the tolerance.  All in squares, so that nothing
-   waits for a root.                                                                           */
-static int gvi__settled(gvi_stepper *st, const gvi__progress *p, gvi_real D, gvi_real rounding)
+   rows, and of each, so that none hides behind a larger one.  One ratio may be luck: the one
+   before, or that of the last step, must agree; after an attempt that failed there is none, and D
+   itself must be within the tolerance.  All in squares, so that nothing waits for a root.     */
+static int gvi__settled(gvi_stepper *st, const gvi__progress *p, gvi_real D)
 {
-    const gvi_real wanted = gvi__larger(st->in.desc.tolerance, GVI__ENOUGH), limit = wanted*wanted;
+    const gvi_real wanted = gvi__larger(st->in.desc.tolerance, GVI__ENOUGH), limit = wanted*wanted,
+                   place = GVI__EPS*GVI__EPS*(gvi_real)(16*st->n*st->r);
     const int alone = p->used == 1 || p->ratio > 1, rows = st->in.stages*st->n;
     const gvi_real last = alone ? D : gvi__smaller(p->before, 1);
 
     if (!(D*D <= limit*last)) return 0;           // NaN as well
-    if (!alone && D > rounding) {
+    if (!alone && D > place) {
         const gvi_real other = p->earlier > 0 ? p->before/gvi__smaller(p->earlier, 1) : p->ratio;
         if (!(D*other <= limit)) return 0;
         st->in.watch.found = D/last;
@@ -3796,86 +3817,82 @@ static int gvi__settled(gvi_stepper *st, const gvi__progress *p, gvi_real D, gvi
     return 1;
 }
 
-// what later verdicts ask of this change: does it grow, is it the least?
+// it falls by less than a bit
+static int gvi__is_poor(const gvi__progress *p)
+{
+    return p->earlier > 0 && p->before >= p->earlier*(GVI__POOR*GVI__POOR);
+}
+
+// what later verdicts need of this change
 static void gvi__note(gvi_stepper *st, gvi__progress *p, gvi_real D)
 {
-    const gvi_real worst = st->counters.worst_contraction, noise = GVI__SURE*GVI__EPS;
-    const int grows = p->before > 0 && D >= p->before*(GVI__POOR*GVI__POOR);
-    if (p->earlier > 0 && D > noise*noise && D > worst*worst*worst*worst*p->earlier)
+    const gvi_real worst = st->counters.worst_contraction, sure = GVI__SURE*GVI__EPS;
+    if (p->earlier > 0 && D > sure*sure && D > worst*worst*worst*worst*p->earlier)
         st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(D/p->earlier));
-    p->rescale = D > GVI__FAR*GVI__FAR || grows;  // those were the units of an overshoot
-    p->growing = grows ? p->growing + 1 : 0;
-    p->stagnant = D < GVI__LEAST*GVI__LEAST*p->least ? 0 : p->stagnant + 1;
-    p->least = gvi__smaller(p->least, D);
-    p->before_earlier = p->earlier;
+
     p->earlier = p->before;
     p->before = D;
+    p->idle = D < GVI__LEAST*GVI__LEAST*p->least ? 0 : p->idle + 1;
+    p->least = gvi__smaller(p->least, D);
+
+    // those were the units of an overshoot
+    p->rescale = D > GVI__FAR*GVI__FAR || gvi__is_poor(p);
 }
 
-// iterations given: done if D falls, or is rounding
-static int gvi__falls(const gvi__progress *p, gvi_real D)
+/* What falls goes on.  What makes no new least is rounding below the floor: below a row's own at
+   once, below that of all rows after a while, which as a rule is above what a row can reach.
+   What is above it and falls by less than a bit, time after time, does not converge.  Under
+   constraints the rounding of g is in every D, and shows sooner.                              */
+static int gvi__rests(gvi_stepper *st, gvi__progress *p, gvi_real h, const gvi__stage *stage)
 {
-    const gvi_real was = p->earlier, two = p->before_earlier;
-    if (was > 0 && D > GVI__FAR*GVI__FAR) return 0;             // its units may grow with it
-    if (two > 0) return D < two*(GVI__POOR*GVI__POOR);
-    return was <= 0 || D < was;
-}
+    const int parts = gvi__parts(&st->in) != 0, moves = parts && gvi__place_moves(st),
+              patience = parts && gvi__place_holds(st) ? 0 : 1,
+              long_since = p->idle > 1 + 3*patience, poor = gvi__is_poor(p);
 
-// may the iteration end here, or should another solver go on?  Else GVI__GO_ON
-static int gvi__rests(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h,
-                      const gvi__stage *stage, int patience)
-{
-    const gvi_real sure = GVI__SURE*GVI__EPS;
-    const int turns = st->in.turns, few = D > GVI__FAR*GVI__FAR ? GVI__MANY_POOR : GVI__FEW_POOR;
-    const int poor = turns && p->growing > few && D > sure*sure*(gvi_real)(st->n*st->r),
-              least = p->stagnant <= patience;
+    if (p->idle > patience && !moves && gvi__excess(st, h, stage, 0) <= 1) return GVI__ONCE_MORE;
+    if (!poor) p->poor = 0;
+    if (!poor && !long_since) return GVI__GO_ON;
 
-    if (least && !poor) return GVI__GO_ON;
-
-    const gvi_real noise = gvi__noise(st, h, stage);
-    const int long_since = p->stagnant > (patience > 0 ? GVI__STAGNANT : 1),
-              slow = p->used - p->stagnant >= GVI__SLOW;         // errors grew first
-    const gvi_real none = patience < 0 ? GVI__ENOUGH/GVI__EPS : 0;
-    if (!least && (noise <= none || (noise <= 1 && long_since)))
-        return slow && turns ? GVI__DIVERGES : GVI__ONCE_MORE;
+    const gvi_real excess = gvi__excess(st, h, stage, 1);
+    if (long_since && !moves && excess <= 1) return GVI__ONCE_MORE;
 
     // a row that tends to 0 changes by its whole size: does its amplitude fall?
-    if (poor && noise > 1 && noise > p->noise/2) return GVI__DIVERGES;
-    if (poor) p->noise = noise;
-    return GVI__GO_ON;
+    p->poor = excess > 1 && excess > p->excess/2 ? p->poor + poor : 0;
+    p->excess = excess;
+    return st->in.turns && p->poor > GVI__PATIENCE ? GVI__DIVERGES : GVI__GO_ON;
 }
 
 static int gvi__verdict(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h,
                         const gvi__stage *stage)
 {
     const gvi_desc *d = &st->in.desc;
-    const gvi_real place = GVI__PLACE*GVI__EPS;
-    const int given = d->iterations > 0;
-    int verdict = GVI__GO_ON, patience = 1;       // so many without a new least may be chance
+    const int given = d->iterations > 0,
+              most = st->in.turns && GVI__SLOW < d->max_iterations ? GVI__SLOW : d->max_iterations;
 
-    if (!given && gvi__settled(st, p, D, place*place*(gvi_real)(st->n*st->r))) return GVI__DONE;
+    if (!given && gvi__settled(st, p, D)) return GVI__DONE;
     if (!gvi__finite(D)) {                        // far off already, it was on its way to infinity
-        const int far = p->growing > 0 || p->before > (gvi_real)st->n || GVI__LOOKS(st);
+        const int far = p->poor > 0 || p->before > (gvi_real)st->n || GVI__LOOKS(st);
         return far ? GVI__DIVERGES : GVI__NOT_FINITE;
     }
 
     gvi__note(st, p, D);
-    if (p->used < d->iterations) return GVI__GO_ON;
-    if (given)
-        return gvi__falls(p, D) || gvi__noise(st, h, stage) <= 1 ? GVI__DONE : GVI__DIVERGES;
-    if (gvi__parts(&st->in)) verdict = gvi__place_judge(st, p, D, &patience);
-    if (verdict == GVI__GO_ON) verdict = gvi__rests(st, p, D, h, stage, patience);
-    if (verdict == GVI__GO_ON && p->used >= d->max_iterations) verdict = GVI__DIVERGES;
-    return verdict;
+    if (given) {
+        const int first = !(p->earlier > 0), falls = D < p->earlier && !(D > GVI__FAR*GVI__FAR);
+        if (p->used < d->iterations) return GVI__GO_ON;
+        return first || falls || gvi__excess(st, h, stage, 1) <= 1 ? GVI__DONE : GVI__DIVERGES;
+    }
+
+    const int verdict = gvi__rests(st, p, h, stage);
+    return verdict == GVI__GO_ON && p->used >= most ? GVI__DIVERGES : verdict;
 }
 
 /* The iteration.  It ends where
-     - the next change is within the tolerance, or far below rounding: done;
-     - D stagnates at rounding: F once more, so that rows that go to and fro in their last places
-       end with their own F, not that of the side they came from, which is a bias: done;
-     - iterations are given and made: done if D falls, or is rounding;
-     - there is another solver, and D falls by less than GVI__POOR too often, or reached rounding
-       slowly, which lets errors grow before they shrink: no convergence;
+     - the next change is within the tolerance: done;
+     - D does not fall, and all is below the floor: F once more, so that rows that go to and fro in
+       their last places end with their own F, not that of the side they came from, which is a
+       bias: done;
+     - iterations are given and made: done if D falls, or is below the floor;
+     - there is another solver, and neither D nor the excess falls, too often: no convergence;
      - max_iterations are made, or D is not finite: no convergence.                            */
 GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                    int extrapolate, gvi__progress *p)
@@ -4032,7 +4049,7 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__origin *from, gvi
 
     if (usable) gvi__prepare_predictor(st, h, query, 0);
     for (int plain = !usable; plain < 2; ++plain) {
-        gvi__progress p = { 0, 0, 0, GVI__MAX, ratio, GVI__MAX, 1, 0, 0, 1 };
+        gvi__progress p = { 0, 0, ratio, GVI__MAX, GVI__MAX, 1, 0, 0, 1 };
         status = gvi__iterate(st, from, h, !plain, &p);                               // 1) to 5)
         gvi__count(&st->counters.iterations, p.used);
         if (!query) st->iterations = p.used;
@@ -4998,6 +5015,15 @@ static gvi_status gvi__clock_at(gvi_stepper *st, gvi_real t, const gvi_real *q, 
     return gvi__rate(st, &at, rate, slope);
 }
 
+// the largest rate of the step's points; 1 without a clock
+static gvi_real gvi__clock_rate(const gvi_stepper *st)
+{
+    if (!gvi__clock_is_on(st)) return 1;
+    gvi_real rate = st->in.time.rate[0];
+    for (int k = 1; k < st->r; ++k) rate = gvi__larger(st->in.time.rate[k], rate);
+    return rate;
+}
+
 // z := sum_j T_j h b_j source_j at all points: the rule of Q
 static void gvi__time_sums(const gvi_stepper *st, const gvi_real *source, gvi_real *z)
 {
@@ -5466,17 +5492,14 @@ typedef struct gvi__matrix {
     gvi_real *unit;        /* of the multipliers, in which the LU has their columns         */
 } gvi__matrix;
 
-/* Where Newton's method stands: the last changes and the least; rho, the contraction seen; what
-   is left of the error, once a change was rounding; the residual in units of its own terms, and
-   once its change is made the work that does in it, or -1 where either is rounding; the
-   residual's norm at the last y that stayed; the last change by each coordinate's size, and what
-   rounding makes of one, see gvi__newton_update; how often no change was less than half of the
-   least; is there a matrix that will do, is it new (1) and was the last one (2); how often was
-   the last change halved, or -1: none to take back; did that change move the residual by half of
-   itself, or is the residual rounding?                                                        */
+/* Where Newton's method stands: the last changes and the least; rho, the contraction seen; the
+   residual in units of its own terms, its norm at the last y that stayed; the last change by each
+   coordinate's size, and over the floor; how often no change was less than half of the least; is
+   there a matrix that will do, is it new; how often was the last change halved, or -1: none to
+   take back; did that change move the residual by half of itself, or is the residual rounding?  */
 typedef struct gvi__descent {
-    gvi_real before, earlier, least, rho, left, work, norm, each, grain;
-    int      stagnant, have, fresh, halves, holds;
+    gvi_real before, earlier, least, rho, work, norm, each, excess;
+    int      idle, have, fresh, halves, holds;
 } gvi__descent;
 
 /* What is held plugs in here: its count of unknowns; g and forces at y; what they add to row k of
@@ -5852,20 +5875,18 @@ static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
 
 /* y += dy from row k0 on; returns the sum of the coordinates' relative changes, to p->each as well;
    but with constraints, which give each coordinate the rounding of all q, the sum of changes over
-   the largest coordinate, each times sqrt(M_ii), and to p->grain that rounding.  p->work: the work
-   of the change, or -1 where all of it is a few last places of q, or the residual was rounding. */
+   the largest coordinate, each times sqrt(M_ii).  p->excess: the largest over the floor, as in
+   gvi__excess.                                                                                */
 static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, const gvi__matrix *J,
                                    gvi__descent *p)
 {
     struct gvi__private *in = &st->in;
-    const int n = st->n, solved = p->work <= GVI__SOLVED*GVI__EPS,
-              sure = p->holds || p->rho < GVI__CONTRACTS;
+    const int n = st->n, held = gvi__held(st) > 0;
     const gvi_real h = GVI_ABS(in->sized.h), none = GVI__MIN/GVI__EPS;
-    gvi_real sum = 0, largest = 0, noise = 0, all = 0, length = 0;
+    gvi_real sum = 0, largest = 0, moved = 0, all = 0, length = 0;
 
-    p->work = 0;
     for (int i = 0; i < n; ++i) {
-        gvi_real change = 0, size = 0, miss = 0;
+        gvi_real change = 0, size = 0;
         const gvi_real q = GVI_ABS(from->q[i]), unit = in->watch.scale[i];
         for (int k = 0; k < st->s; ++k) {
             gvi_real *y = in->newton.y + k*n + i;
@@ -5874,19 +5895,15 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
             if (k >= J->k0) {
                 *y += in->newton.dy[at];
                 change += GVI_ABS(in->newton.dy[at]);
-                miss += GVI_ABS(in->newton.residual[at]);
-                p->work += GVI_ABS(in->newton.dy[at]*in->newton.residual[at]);
             }
             size += GVI_ABS(*y);
         }
         const gvi_real least = GVI__EPS*change;                       // y may land on 0
         if (!(size <= none && change <= none)) sum += change/(size < least ? least : size);
         all += change/unit;
-        if (size > length*unit) length = size/unit;
-        if (q + h*size > largest*unit) largest = (q + h*size)/unit;
-        // a wrong matrix may make the change small, not the residual
-        const gvi_real moved = change/unit > miss*unit ? change/unit : miss*unit;
-        if (!(h*change <= GVI__PLACE*GVI__EPS*q) && h*moved > noise) noise = h*moved;
+        length = gvi__larger(size/unit, length);
+        largest = gvi__larger((q + h*size)/unit, largest);
+        moved = gvi__larger(h*change/unit, moved);
     }
 
     for (size_t k = (size_t)(st->s*n); k < gvi__unknowns(st, 0); ++k) {   // multipliers
@@ -5894,111 +5911,75 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
         in->newton.y[k] += in->newton.dy[k];
     }
 
-    // see gvi__noise
-    const gvi_real place = p->stagnant > 1 ? GVI__NOISE*GVI__EPS*largest : 0;
-    if ((noise <= place && sure) || solved) p->work = -1;
     p->each = sum;
-    p->grain = GVI__EPS;
-    if (gvi__held(st) == 0 || !(length > none)) return sum;
-    if (largest > h*length) p->grain *= largest/(h*length);
-    return all/length;
+    p->excess = moved > 0 ? moved/(GVI__NOISE*GVI__EPS*largest) : 0;
+    in->newton.noise = GVI__EPS;
+    if (held && length > none && largest > h*length) in->newton.noise *= largest/(h*length);
+    in->newton.noise *= GVI__GRAIN*(gvi_real)(st->s*n);
+    return held && length > none ? all/length : sum;
 }
 
-// what later verdicts ask of this change: the contraction, and whether it still shrinks
-static void gvi__newton_note(gvi_stepper *st, gvi__descent *p, gvi_real change, gvi_real noise)
+/* The verdict on a change.  Rounding: it does not fall to half of the least, and is below the floor,
+   by a matrix that is right: it has contracted, or the residual shows it.  To shrink is to be at
+   most half of the least so far: what is rounded to a grid may circle among a few of its points.
+   Nor is a fall from an overshoot far beyond the size of y a contraction.  One ratio by an old
+   matrix may be luck: unless the change is below the floor, the one before must agree.        */
+static int gvi__newton_converged(gvi_stepper *st, gvi__descent *p, gvi_real change)
 {
-    const gvi_real before = p->before;
-    if (p->earlier > 0 && change > GVI__SURE*GVI__EPS) {
-        const gvi_real contraction = GVI_SQRT(change/p->earlier);
-        st->counters.worst_contraction = gvi__larger(contraction, st->counters.worst_contraction);
-    }
-
-    const int stagnant = before > 0 && change > p->least/2, rests = p->left < GVI__MAX;
-    p->stagnant = stagnant ? p->stagnant + 1 : 0;
-    if (before > 0 && !stagnant && !rests && (change > noise || change < p->rho*p->least))
-        p->rho = change/p->least;
-    p->least = gvi__smaller(change, p->least);
-
-    const int felt = gvi__held(st) == 0 || p->work >= 0;   // not the rounding of g
-    if (before > 0 && change > noise && felt)
-        st->in.newton.bend = gvi__larger(change/before, st->in.newton.bend);
-}
-
-/* Is it rounding?  One that does not shrink is, if y, q or the residual is, or if it is small and
-   its matrix is new or has contracted here: an older one can repeat any change.  It then hides no
-   more of the error, p->left, than the change before, which shrinks on by the contraction seen. */
-static int gvi__newton_rests(gvi__descent *p, gvi_real change, gvi_real noise)
-{
-    const gvi_real quarter = GVI__CONTRACTS;
-    const int fresh = p->fresh & 1, proven = (fresh && p->holds) || p->rho < quarter;
-    const int small = change <= noise || (fresh && change <= GVI_SQRT(GVI__EPS));
-    if (p->stagnant > 0 && !(p->left < GVI__MAX) && (p->work < 0 || (proven && small)))
-        p->left = p->before;
-    if (!(p->left < GVI__MAX)) return 0;
-    p->left *= gvi__smaller(p->rho, quarter);
-    return 1;
-}
-
-/* The verdict on a change.  To shrink is to be at most half of the least so far: what is rounded to
-   a grid may circle among a few of its points, and fall in every iteration.  Nor is a fall from an
-   overshoot far beyond the size of y a contraction.  One ratio by an old matrix may
-   be luck: unless the change is rounding, the one before must agree.                          */
-static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p,
-                                 gvi_real change)
-{
-    const gvi_real all = (gvi_real)st->n, quarter = GVI__CONTRACTS,
-                   noise = GVI__GRAIN*p->grain*(gvi_real)((st->s - J->k0)*st->n),
+    const gvi_real all = (gvi_real)st->n, quarter = GVI__CONTRACTS, before = p->before,
                    enough = gvi__larger(st->in.desc.tolerance, GVI__NEWTON_ENOUGH);
+    const int falls = !(before > 0) || change <= p->least/2;
     gvi_real ratio = 1, other = 1;
 
     if (!gvi__finite(change)) return GVI__NOT_FINITE;
-    st->in.newton.noise = noise;
-    if (p->before > 0) ratio = change/gvi__smaller(p->before, all);
-    if (p->earlier > 0) other = p->before/gvi__smaller(p->earlier, all);
-    gvi__newton_note(st, p, change, noise);
-    const int rests = gvi__newton_rests(p, change, noise), contracts = p->rho < quarter;
-
-    const int confirmed = (p->fresh & 1 && p->holds) || change <= noise || change*other <= enough;
-    const int done = (p->each*ratio <= enough && confirmed) || p->left <= enough;
-    if (done && (p->holds || contracts)) return GVI__DONE;
-
-    // rounding by a matrix that has contracted here asks for no other
-    if (!rests && !(p->work < 0 && contracts) && p->before > 0 && ratio > quarter) p->have = 0;
-    p->earlier = p->before;
+    if (before > 0) ratio = change/gvi__smaller(before, all);
+    if (p->earlier > 0) other = before/gvi__smaller(p->earlier, all);
+    if (p->earlier > 0 && change > GVI__SURE*GVI__EPS)
+        st->counters.worst_contraction =
+            gvi__larger(GVI_SQRT(change/p->earlier), st->counters.worst_contraction);
+    if (before > 0 && p->excess > 1) st->in.newton.bend = gvi__larger(change/before, st->in.newton.bend);
+    if (before > 0 && falls && (p->excess > 1 || change < p->rho*p->least)) p->rho = change/p->least;
+    p->idle = falls ? 0 : p->idle + 1;
+    p->least = gvi__smaller(change, p->least);
+    p->earlier = before;
     p->before = change;
+
+    const int right = p->holds || p->rho < quarter,
+              confirmed = (p->fresh && p->holds) || p->excess <= 1 || change*other <= enough;
+    /* what a new matrix that is right does not make fall is rounding of the callbacks; where one is
+       nearly singular, no bound on changes is one, but that on the residual                  */
+    const int noisy = (p->fresh && p->holds && change <= GVI_SQRT(GVI__EPS))
+                      || p->work <= GVI__SOLVED*GVI__EPS;
+    if (p->idle > 0 && right && (noisy || p->excess <= (gvi_real)(p->idle*p->idle)/8))
+        return GVI__DONE;
+    if (right && p->each*ratio <= enough && confirmed) return GVI__DONE;
+    if (before > 0 && ratio > quarter && (!right || p->excess > 1)) p->have = 0;
     return GVI__GO_ON;
 }
 
-/* Does y, whose residual has that norm, stay?  A change that is not small and has not reduced the
+/* Does y, whose residual has that norm, stay?  A change above the floor that has not reduced the
    residual is taken back, for a new matrix; or halved, if the matrix was new.  Where six halvings
    have not helped, the whole change stands: across a kink, or from one curve to the next, the way
-   down may lead up first.  And what seemed to be rounding but grows again was no rounding.    */
+   down may lead up first.                                                                     */
 static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p, gvi_real norm)
 {
     enum { HALVES = GVI__NEARER };
-    const int rests = p->left < GVI__MAX, fresh = p->fresh & 1;
-    if (J->halves && p->halves >= 0 && p->halves <= HALVES && !(norm < p->norm) && !rests
+    if (J->halves && p->halves >= 0 && p->halves <= HALVES && !(norm < p->norm)
         && p->before > GVI_SQRT(GVI__EPS)) {
         gvi_real *y = st->in.newton.y, *last = st->in.newton.last;
-        const gvi_real part = !fresh               ? 0
+        const gvi_real part = !p->fresh            ? 0
                               : p->halves < HALVES ? (gvi_real)0.5
                                                    : (gvi_real)(1 << HALVES);
         for (size_t i = 0, all = gvi__unknowns(st, 0); i < all; ++i)
             y[i] = last[i] + part*(y[i] - last[i]);
-        if (fresh) p->halves += 1;
+        if (p->fresh) p->halves += 1;
         else p->have = 0, p->halves = -1;
         gvi__count(&st->counters.newton_iterations, 1);
         return 0;
     }
 
     if (p->halves > 0) p->have = 0;                // another place: another matrix
-    if (rests && norm/16 > p->norm) {
-        p->before = 0;
-        p->least = p->left = GVI__MAX;
-        p->rho = GVI__CONTRACTS;
-    }
-
-    if (!(p->left < GVI__MAX)) p->norm = norm;
+    p->norm = norm;
     return 1;
 }
 
@@ -6010,8 +5991,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
     const int size = (int)gvi__unknowns(st, J->k0), modes = (st->s - J->k0)*st->n,
               kept = J->pivot == in->newton.pivot;
     gvi__descent p = {
-        0, 0, GVI__MAX, GVI__CONTRACTS, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, -1, 0
-
+        0, 0, GVI__MAX, GVI__CONTRACTS, 0, GVI__MAX, 0, 0, 0, 0, 0, -1, 0
     };
     p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);
     in->newton.bend = 0;
@@ -6021,7 +6001,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
         // one more evaluation, then done
         if (status != GVI_OK || verdict == GVI__DONE) return status;
         if (!gvi__newton_stays(st, J, &p, gvi__residual(st, from, J->k0, &p))) continue;
-        p.fresh = (p.fresh & 1) << 1 | !p.have;
+        p.fresh = !p.have;
         if (!p.have) {
             if (++made > in->desc.max_iterations/4 + 2) break;
             status = gvi__jacobian(st, J);
@@ -6037,7 +6017,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
         gvi_lu_solve(size, J->square, J->pivot, in->newton.dy);
         for (int z = modes; z < size; ++z) in->newton.dy[z] *= J->unit[z - modes];
         gvi__count(&st->counters.newton_iterations, 1);
-        verdict = gvi__newton_converged(st, J, &p, gvi__newton_update(st, from, J, &p));
+        verdict = gvi__newton_converged(st, &p, gvi__newton_update(st, from, J, &p));
         if (verdict == GVI__NOT_FINITE)
             return gvi__report_status(st, GVI__LOOKS(st) ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
         p.halves = 0;
@@ -6931,30 +6911,6 @@ GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int row, int point)
     for (int l = (int)st->in.con.first[row]; l < row; ++l)
         lost += A[(row*m + l)*C]*A[(l*m + row)*C];
     return lost*A[(row*m + row)*C];
-}
-
-// is rank being lost?  Near a bifurcation it would be leaving the motion for that of another branch
-GVI__CALLED int gvi__constraint_judge(const gvi_stepper *st, const gvi__progress *p, gvi_real D)
-{
-    const gvi_real grain = GVI__GRAIN*GVI__GRAIN*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r);
-    const int m = st->in.con.m;
-    gvi_real loss = 0;
-    if (!(D > 16*p->least && D > grain)) return GVI__GO_ON;
-    for (int k = 0; k < st->s*m; ++k) loss = gvi__larger(gvi__loss(st, k % m, k/m), loss);
-    return loss > GVI__LOST - 1 && D > grain*loss*loss*loss ? GVI__DIVERGES : GVI__GO_ON;
-}
-
-/* The rounding of g is in every D.  Under rows that roll, a P or V that is nothing but rounding is
-   in it too: while another row still falls to a quarter, go on.  A light coordinate: the rounding
-   of others hides most of each correction, and what it does to this one fades slowly, far below. */
-static int gvi__patience(const gvi_stepper *st, const gvi__progress *p)
-{
-    const gvi_real *change = st->in.watch.change, *before = st->in.watch.before,
-                   place = GVI__PLACE*GVI__EPS;
-    if (!gvi__rolls(st)) return 0;
-    for (int row = 0; row < st->in.stages*st->n; ++row)
-        if (change[row] > place*place && change[row] < before[row]/16) return p->used;
-    return p->used > 8 ? -1 : 0;
 }
 
 /* A move of coordinate i that is rounding, whatever its amplitude: of a force of constraint, 32 eps
@@ -8362,7 +8318,7 @@ static gvi_real gvi__power(gvi_real x, int k)
 /* What a coordinate lacks of its velocity, of which y are the modes K, K - 1 .., `ends` at both
    ends and `turn` from end to end.  all: its size.                                            */
 static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real ends, gvi_real turn,
-                            gvi_real *all)
+                            gvi_real terms, gvi_real *all)
 {
     const int top = st->in.dial.top, e = 2*st->s - top,
               stiff = st->formulation == GVI_NEWTON && st->in.chosen != GVI_NEWTON
@@ -8377,7 +8333,7 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
         if (one > 0) high += one*(one/(top == 3 ? low : *all))/4;
     }
     // rounding, a force as simple as the curve: next to nothing, whatever h
-    if (high <= 4*GVI__EPS*(st->in.stages == 1 ? turn + low : *all))
+    if (high <= 4*GVI__EPS*(st->in.stages == 1 ? turn + low : *all + terms))
         return high*GVI__EPS*GVI__EPS;
     if (stiff) return high;
 
@@ -8417,12 +8373,11 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
-    const int s = st->s, R = in->R, top = in->dial.top, forces = in->stages == 1,
+    const int R = in->R, top = in->dial.top, forces = in->stages == 1,
               constrained = gvi__constrained(st),
               pulled = forces & constrained ? top < 6 ? top : 6 : 0;
     const gvi_real *row = forces ? in->work.F : in->work.V;
-    const gvi_real h = GVI_ABS(in->sized.h), unit = forces ? h : 1,
-                   rounding = (gvi_real)(s*s)*GVI__EPS;
+    const gvi_real h = GVI_ABS(in->sized.h), unit = forces ? h : 1;
     gvi_real *missed = in->answer, *size = missed + st->n, *mass = size + st->n;
     gvi_real fastest = 0, farthest = 0, v = 0, worst = 0;
     for (int i = 0; i < st->n; ++i, row += R) {
@@ -8439,8 +8394,9 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
         }
         mass[i] = GVI_SQRT(gvi__place_inertia(st, i));
         const gvi_real scale = forces ? 1/mass[i] : mass[i];
+        const gvi_real terms = GVI_ABS(in->state.p[i])/(mass[i]*mass[i]);        // of V = M^-1 (P - A)
         missed[i] = scale*gvi__missed(st, y, GVI_ABS(start) + GVI_ABS(end), GVI_ABS(end - start),
-                                      size + i);
+                                      terms, size + i);
         size[i] *= scale;                         // p over M
         fastest = gvi__larger(size[i], fastest);
         farthest = gvi__larger(GVI_ABS(in->state.q[i])*mass[i], farthest);
@@ -8454,11 +8410,10 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
                        around = gvi__smaller(own, whole);
         const int rests = size[i] < around/GVI__RESTS;
 
-        // what rounding of g, or of forces of constraint, makes of it: less the longer a step is
-        gvi_real noise = shift ? mass[i]*shift[i]/h : 0;
-        if (shift && (forces || rests)) noise = gvi__larger(GVI__EPS*whole, noise);
-        if (missed[i] <= GVI__PULLED*noise) continue;
-        if (rests && missed[i] <= GVI__CANCELS*rounding*around) size[i] = around;
+        // the floor: of g, and where it rests or forces of constraint make it, of the largest
+        gvi_real floor = shift ? mass[i]*shift[i]/h : 0;
+        if (rests || (shift && forces)) floor = gvi__larger(GVI__EPS*(shift ? whole : around), floor);
+        if (missed[i] <= GVI__PULLED*floor) missed[i] *= GVI__EPS*GVI__EPS;
         worst = gvi__larger(missed[i]/size[i], worst);
     }
     return worst;
@@ -8508,7 +8463,6 @@ static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
         const gvi_real loss = dial->reach - (at + room);
         lasts = dial->reach - at > GVI__BAND;
         if (loss > 0) left -= loss;
-        if (room > 0 && dial->loss <= 0) left = gvi__larger(left, -GVI__DOUBT);
         dial->loss = loss;
         dial->reach = at + room;
     }
@@ -8655,7 +8609,7 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, size = (st->s - J->k0)*n;
-    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, 0, 0 };
+    gvi__descent p = { 0, 0, GVI__MAX, 0, 0, GVI__MAX, 0, 0, 0, 0, 0, 0, 0 };
     gvi_real *y = in->newton.y, before = 0, length = 0;
 
     if (grow > 1 && J->k0 == 0) {
@@ -9718,14 +9672,17 @@ static gvi_status gvi__place_evaluate(gvi_stepper *st, const gvi__origin *from, 
     return status;
 }
 
-static int gvi__place_judge(gvi_stepper *st, const struct gvi__progress *p, gvi_real D,
-                            int *patience)
+static int gvi__place_holds(const gvi_stepper *st)
 {
-    GVI__CONSTRAINTS_ON(
-        *patience = gvi__patience(st, p);
-        return gvi__constraint_judge(st, p, D))
-    GVI__MOMENTA(if (st->in.momenta.moves) *patience = st->in.desc.max_iterations)
-    return GVI__GO_ON;
+    GVI__CONSTRAINTS_ON(return 1)
+    return 0;
+}
+
+// is there more than the rows show?
+static int gvi__place_moves(const gvi_stepper *st)
+{
+    GVI__MOMENTA(if (st->in.momenta.moves) return 1)
+    return 0;
 }
 
 /* ---- the end of a step ---- */
