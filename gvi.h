@@ -1680,7 +1680,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__POOR ((gvi_real)0.5)          // it gains less than a bit
 #define GVI__FAR ((gvi_real)0.25)          // of the motion, a change: the units are an overshoot's
 #define GVI__LEAST ((gvi_real)0.9)         // of the least change so far: a new one
-#define GVI__SLOW (GVI__DIG/2)             // iterations: no more of them if there is another solver
+#define GVI__SLOW (GVI__DIG/2)             // to rounding by less than 2 bits: errors grew first
 #define GVI__PATIENCE 3                    // changes that do not fall: diverges
 #define GVI__NEARER 6                      // halvings, where a domain or Newton's residual wants it
 #define GVI__BY_NEWTON 64                  // steps until the fixed point is tried again
@@ -1703,11 +1703,13 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 // the dial, in rungs, four an octave
 #define GVI__BAND 4                        // room at which h stays; and the most that it grows
 #define GVI__MARGIN ((gvi_real)0.5)        // of it, kept back
+#define GVI__DOUBT ((gvi_real)0.5)         // rungs below 0: by a loss that is the first
 #define GVI__SHY 2                         // rungs of room kept back by a step that grows
 #define GVI__MANY (4 + GVI__DIG/4)         // iterations from which on a longer step does not pay
 #define GVI__WAIT 4                        // steps until a length that failed is tried again
 #define GVI__SHORTER 3                     // lengths tried before Newton's method, 3 rungs apart
 #define GVI__STEADY ((gvi_real)0.64)       // of a fall of modes, squared, that one pair alone shows
+#define GVI__CANCELS 16                    // s^2 eps: rounding of forces that cancel
 #define GVI__FALL 8                        // the most that it shrinks, and after a failure
 #define GVI__RESTS 4096                    // times slower than the fastest: judged with it
 #define GVI__PULLED 256                    // roundings of g, or of forces of constraint
@@ -3835,14 +3837,15 @@ static void gvi__note(gvi_stepper *st, gvi__progress *p, gvi_real D)
     p->rescale = D > GVI__FAR*GVI__FAR || gvi__is_poor(p);
 }
 
-// does a row still fall to a quarter, above its last places?
-static int gvi__a_row_falls(const gvi_stepper *st)
+// may a change be rounding?  Not while a row falls to a quarter, above its last places
+static int gvi__stands_still(const gvi_stepper *st)
 {
     const gvi_real *change = st->in.watch.change, *before = st->in.watch.before,
                    place = GVI__PLACE*GVI__EPS;
+    if (gvi__parts(&st->in) && gvi__place_moves(st)) return 0;
     for (int row = 0; row < st->in.stages*st->n; ++row)
-        if (change[row] > place*place && change[row] < before[row]/16) return 1;
-    return 0;
+        if (change[row] > place*place && change[row] < before[row]/16) return 0;
+    return 1;
 }
 
 /* What falls goes on.  What makes no new least is rounding below the floor: below a row's own at
@@ -3851,17 +3854,17 @@ static int gvi__a_row_falls(const gvi_stepper *st)
    constraints the rounding of g is in every D, and shows sooner.                              */
 static int gvi__rests(gvi_stepper *st, gvi__progress *p, gvi_real h, const gvi__stage *stage)
 {
-    const int parts = gvi__parts(&st->in) != 0, moves = parts && gvi__place_moves(st),
-              patience = parts && gvi__place_holds(st) ? 0 : 1,
-              long_since = p->idle > 1 + 3*patience, poor = gvi__is_poor(p);
+    const int patience = gvi__parts(&st->in) && gvi__place_holds(st) ? 0 : 1,
+              long_since = p->idle > 1 + 3*patience, poor = gvi__is_poor(p),
+              still = p->idle > patience && gvi__stands_still(st);
 
-    if (p->idle > patience && !moves && !gvi__a_row_falls(st)
-        && gvi__excess(st, h, stage, 0) <= 1) return GVI__ONCE_MORE;
+    const int rest = st->in.turns && p->used - p->idle >= GVI__SLOW ? GVI__DIVERGES : GVI__ONCE_MORE;
+    if (still && gvi__excess(st, h, stage, 0) <= 1) return rest;
     if (!poor) p->poor = 0;
     if (!poor && !long_since) return GVI__GO_ON;
 
     const gvi_real excess = gvi__excess(st, h, stage, 1);
-    if (long_since && !moves && excess <= 1 && !gvi__a_row_falls(st)) return GVI__ONCE_MORE;
+    if (still && long_since && excess <= 1) return rest;
 
     // a row that tends to 0 changes by its whole size: does its amplitude fall?
     p->poor = excess > 1 && excess > p->excess/2 ? p->poor + poor : 0;
@@ -3873,8 +3876,7 @@ static int gvi__verdict(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real 
                         const gvi__stage *stage)
 {
     const gvi_desc *d = &st->in.desc;
-    const int given = d->iterations > 0,
-              most = st->in.turns && GVI__SLOW < d->max_iterations ? GVI__SLOW : d->max_iterations;
+    const int given = d->iterations > 0;
 
     if (!given && gvi__settled(st, p, D)) return GVI__DONE;
     if (!gvi__finite(D)) {                        // far off already, it was on its way to infinity
@@ -3890,7 +3892,7 @@ static int gvi__verdict(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real 
     }
 
     const int verdict = gvi__rests(st, p, h, stage);
-    return verdict == GVI__GO_ON && p->used >= most ? GVI__DIVERGES : verdict;
+    return verdict == GVI__GO_ON && p->used >= d->max_iterations ? GVI__DIVERGES : verdict;
 }
 
 /* The iteration.  It ends where
@@ -5981,7 +5983,7 @@ static int gvi__newton_converged(gvi_stepper *st, gvi__descent *p, gvi_real chan
        nearly singular, no bound on changes is one, but that on the residual                  */
     const int noisy = (p->fresh && p->holds && change <= GVI_SQRT(GVI__EPS))
                       || p->work <= GVI__SOLVED*GVI__EPS;
-    if (p->idle > 0 && right && (noisy || p->excess <= (gvi_real)(p->idle*p->idle)/8))
+    if (p->idle > 0 && right && ((noisy && p->idle > 2) || p->excess <= (gvi_real)(p->idle*p->idle)/8))
         return GVI__DONE;
     if (right && p->each*ratio <= enough && confirmed) return GVI__DONE;
     if (before > 0 && ratio > quarter && (!right || p->excess > 1)) p->have = 0;
@@ -6953,10 +6955,10 @@ static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_re
     const gvi_real eps = GVI__EPS*(all ? GVI__NOISE : GVI__PLACE);
     gvi_real push = 0;
     if (!gvi__constrained(st)) return 0;
-    if (i == 0) gvi__constraints_moved(st, in->con.W);
+    if (i == 0 && all) gvi__constraints_moved(st, in->con.W);
     for (int e = 0; e < st->s; ++e) {
-        const gvi_real force = eps*GVI_ABS(h*in->con.force[i*in->R + e])
-                               + in->con.W[i*in->con.C + e]/GVI_ABS(in->con.hw[e]);
+        gvi_real force = eps*GVI_ABS(h*in->con.force[i*in->R + e]);
+        if (all) force += in->con.W[i*in->con.C + e]/GVI_ABS(in->con.hw[e]);
         push = gvi__larger(GVI_ABS(h)*force/m, push);
     }
     return push;
@@ -8350,7 +8352,7 @@ static gvi_real gvi__power(gvi_real x, int k)
 /* What a coordinate lacks of its velocity, of which y are the modes K, K - 1 .., `ends` at both
    ends and `turn` from end to end.  all: its size.                                            */
 static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real ends, gvi_real turn,
-                            gvi_real terms, gvi_real *all)
+                            gvi_real *all)
 {
     const int top = st->in.dial.top, e = 2*st->s - top,
               stiff = st->formulation == GVI_NEWTON && st->in.chosen != GVI_NEWTON
@@ -8365,7 +8367,7 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
         if (one > 0) high += one*(one/(top == 3 ? low : *all))/4;
     }
     // rounding, a force as simple as the curve: next to nothing, whatever h
-    if (high <= 4*GVI__EPS*(st->in.stages == 1 ? turn + low : *all + terms))
+    if (high <= 4*GVI__EPS*(st->in.stages == 1 ? turn + low : *all))
         return high*GVI__EPS*GVI__EPS;
     if (stiff) return high;
 
@@ -8405,11 +8407,12 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
-    const int R = in->R, top = in->dial.top, forces = in->stages == 1,
+    const int s = st->s, R = in->R, top = in->dial.top, forces = in->stages == 1,
               constrained = gvi__constrained(st),
               pulled = forces & constrained ? top < 6 ? top : 6 : 0;
     const gvi_real *row = forces ? in->work.F : in->work.V;
-    const gvi_real h = GVI_ABS(in->sized.h), unit = forces ? h : 1;
+    const gvi_real h = GVI_ABS(in->sized.h), unit = forces ? h : 1,
+                   rounding = (gvi_real)(s*s)*GVI__EPS;
     gvi_real *missed = in->answer, *size = missed + st->n, *mass = size + st->n;
     gvi_real fastest = 0, farthest = 0, v = 0, worst = 0;
     for (int i = 0; i < st->n; ++i, row += R) {
@@ -8426,9 +8429,8 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
         }
         mass[i] = GVI_SQRT(gvi__place_inertia(st, i));
         const gvi_real scale = forces ? 1/mass[i] : mass[i];
-        const gvi_real terms = GVI_ABS(in->state.p[i])/(mass[i]*mass[i]);        // of V = M^-1 (P - A)
         missed[i] = scale*gvi__missed(st, y, GVI_ABS(start) + GVI_ABS(end), GVI_ABS(end - start),
-                                      terms, size + i);
+                                      size + i);
         size[i] *= scale;                         // p over M
         fastest = gvi__larger(size[i], fastest);
         farthest = gvi__larger(GVI_ABS(in->state.q[i])*mass[i], farthest);
@@ -8442,10 +8444,11 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
                        around = gvi__smaller(own, whole);
         const int rests = size[i] < around/GVI__RESTS;
 
-        // the floor: of g, and where it rests or forces of constraint make it, of the largest
-        gvi_real floor = shift ? mass[i]*shift[i]/h : 0;
-        if (rests || (shift && forces)) floor = gvi__larger(GVI__EPS*(shift ? whole : around), floor);
-        if (missed[i] <= GVI__PULLED*floor) missed[i] *= GVI__EPS*GVI__EPS;
+        // what rounding of g, or of forces of constraint, makes of it: less the longer a step is
+        gvi_real noise = shift ? mass[i]*shift[i]/h : 0;
+        if (shift && (forces || rests)) noise = gvi__larger(GVI__EPS*whole, noise);
+        if (missed[i] <= GVI__PULLED*noise) continue;
+        if (rests && missed[i] <= GVI__CANCELS*rounding*around) size[i] = around;
         worst = gvi__larger(missed[i]/size[i], worst);
     }
     return worst;
@@ -8495,6 +8498,7 @@ static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
         const gvi_real loss = dial->reach - (at + room);
         lasts = dial->reach - at > GVI__BAND;
         if (loss > 0) left -= loss;
+        if (room > 0 && dial->loss <= 0) left = gvi__larger(left, -GVI__DOUBT);
         dial->loss = loss;
         dial->reach = at + room;
     }
