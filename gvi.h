@@ -3778,11 +3778,11 @@ GVI__CALLED gvi_real gvi__excess(const gvi_stepper *st, gvi_real h, const gvi__s
 
     for (const gvi__stage *y = stage; y < stage + st->in.stages; ++y)
         for (int i = 0; i < st->n && !y->quiet; ++i) {
-            if (!(y->scale[i] > 0) || !(y->change[i] > 0)) continue;
             const gvi_real m = gvi__inertia(st, i), unit = gvi__amplitude_of(st, h, y, m),
                            size = all ? largest : unit*gvi__size_of_row(st, y, i),
-                           push = parts ? gvi__place_push(st, h, i, m, all) : 0,
-                           change = unit*(GVI_SQRT(y->change[i])/y->scale[i]);
+                           push = parts ? gvi__place_push(st, h, i, m, all) : 0;
+            if (!(y->scale[i] > 0) || !(y->change[i] > 0)) continue;
+            const gvi_real change = unit*(GVI_SQRT(y->change[i])/y->scale[i]);
             excess = gvi__larger(change/(eps*size + GVI_SQRT(m)*push), excess);
         }
     return excess;
@@ -5952,41 +5952,53 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
     return held && length > none ? all/length : sum;
 }
 
-/* The verdict on a change.  Rounding: it does not fall to half of the least, and is below the floor,
-   by a matrix that is right: it has contracted, or the residual shows it.  To shrink is to be at
-   most half of the least so far: what is rounded to a grid may circle among a few of its points.
-   Nor is a fall from an overshoot far beyond the size of y a contraction.  One ratio by an old
-   matrix may be luck: unless the change is below the floor, the one before must agree.        */
-static int gvi__newton_converged(gvi_stepper *st, gvi__descent *p, gvi_real change)
+/* What later verdicts need of this change.  To fall is to be at most half of the least so far: what
+   is rounded to a grid may circle among a few of its points.                                  */
+static void gvi__newton_note(gvi_stepper *st, gvi__descent *p, gvi_real change)
 {
-    const gvi_real all = (gvi_real)st->n, quarter = GVI__CONTRACTS, before = p->before,
-                   enough = gvi__larger(st->in.desc.tolerance, GVI__NEWTON_ENOUGH);
-    const int falls = !(before > 0) || change <= p->least/2;
-    gvi_real ratio = 1, other = 1;
+    const int first = !(p->before > 0), falls = first || change <= p->least/2,
+              felt = !first && p->excess > 1;
 
-    if (!gvi__finite(change)) return GVI__NOT_FINITE;
-    if (before > 0) ratio = change/gvi__smaller(before, all);
-    if (p->earlier > 0) other = before/gvi__smaller(p->earlier, all);
-    if (p->earlier > 0 && change > GVI__SURE*GVI__EPS)
-        st->counters.worst_contraction =
-            gvi__larger(GVI_SQRT(change/p->earlier), st->counters.worst_contraction);
-    if (before > 0 && p->excess > 1) st->in.newton.bend = gvi__larger(change/before, st->in.newton.bend);
-    if (before > 0 && falls && (p->excess > 1 || change < p->rho*p->least)) p->rho = change/p->least;
+    if (p->earlier > 0 && change > GVI__SURE*GVI__EPS) {
+        const gvi_real contraction = GVI_SQRT(change/p->earlier);
+        st->counters.worst_contraction = gvi__larger(contraction, st->counters.worst_contraction);
+    }
+
+    if (felt) st->in.newton.bend = gvi__larger(change/p->before, st->in.newton.bend);
+    if (!first && falls && (felt || change < p->rho*p->least)) p->rho = change/p->least;
     p->idle = falls ? 0 : p->idle + 1;
     p->least = gvi__smaller(change, p->least);
-    p->earlier = before;
+    p->earlier = p->before;
     p->before = change;
+}
 
-    const int right = p->holds || p->rho < quarter,
-              confirmed = (p->fresh && p->holds) || p->excess <= 1 || change*other <= enough;
-    /* what a new matrix that is right does not make fall is rounding of the callbacks; where one is
-       nearly singular, no bound on changes is one, but that on the residual                  */
-    const int noisy = (p->fresh && p->holds && change <= GVI_SQRT(GVI__EPS))
-                      || p->work <= GVI__SOLVED*GVI__EPS;
-    if (p->idle > 0 && right && ((noisy && p->idle > 2) || p->excess <= (gvi_real)(p->idle*p->idle)/8))
-        return GVI__DONE;
-    if (right && p->each*ratio <= enough && confirmed) return GVI__DONE;
-    if (before > 0 && ratio > quarter && (!right || p->excess > 1)) p->have = 0;
+/* The verdict on a change.  It is rounding if it does not fall and is below the floor, the more
+   changes in a row the higher, by a matrix that is right: it has contracted, or the residual shows
+   it.  Two facts count as the floor after three changes: a new matrix that is right does not make
+   small ones fall, so the callbacks are noisy; or the residual is rounding, where the matrix is
+   nearly singular.                                                                            */
+static int gvi__newton_converged(gvi_stepper *st, gvi__descent *p, gvi_real change)
+{
+    const gvi_real all = (gvi_real)st->n, quarter = GVI__CONTRACTS,
+                   enough = gvi__larger(st->in.desc.tolerance, GVI__NEWTON_ENOUGH);
+    gvi_real ratio = 1, other = 1;
+
+    // a fall from an overshoot far beyond the size of y is no contraction
+    if (!gvi__finite(change)) return GVI__NOT_FINITE;
+    if (p->before > 0) ratio = change/gvi__smaller(p->before, all);
+    if (p->earlier > 0) other = p->before/gvi__smaller(p->earlier, all);
+    gvi__newton_note(st, p, change);
+
+    const int right = p->holds || p->rho < quarter, proven = p->fresh && p->holds,
+              noisy = (proven && change <= GVI_SQRT(GVI__EPS)) || p->work <= GVI__SOLVED*GVI__EPS,
+              below = p->excess <= (gvi_real)(p->idle*p->idle)/8 || (noisy && p->idle > 2);
+    if (right && below && p->idle > 0) return GVI__DONE;
+
+    // one ratio by an old matrix may be luck: above the floor the one before must agree
+    const int confirmed = proven || p->excess <= 1 || change*other <= enough;
+    if (right && confirmed && p->each*ratio <= enough) return GVI__DONE;
+
+    if (p->earlier > 0 && ratio > quarter && (!right || p->excess > 1)) p->have = 0;
     return GVI__GO_ON;
 }
 
