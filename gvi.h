@@ -3243,13 +3243,14 @@ static void gvi__place_before_rows(gvi_stepper *st, const struct gvi__stage *sta
 static void gvi__place_behind_rows(gvi_stepper *st, const struct gvi__stage *stage, gvi_real sum);
 static void gvi__place_last(gvi_stepper *st, const gvi__origin *from,
                             const struct gvi__stage *stage);
-static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m, int all);
+static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m,
+                                gvi_real eps, int moves);
 #else
 #define gvi__place_predictor(st, alpha, beta) ((void)(alpha))
 #define gvi__place_before_rows(st, stage) ((void)0)
 #define gvi__place_behind_rows(st, stage, sum) ((void)0)
 #define gvi__place_last(st, from, stage) ((void)0)
-#define gvi__place_push(st, h, i, m, all) 0
+#define gvi__place_push(st, h, i, m, eps, moves) ((void)(moves), (gvi_real)0)
 #endif
 
 /* PLACES of the solvers: in place of the fixed point, 1 if *status is the result; where that has
@@ -3763,7 +3764,8 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
    changes exceed it, the largest of all rows.  A row's own floor is 4 eps of its largest value.
    With `all` it is 32 eps of the largest amplitude: where the iteration contracts, h^2 dF/dQ between
    amplitudes is below 1, so the rounding of one coordinate makes no more than that of another: a
-   light body midway between two heavy ones.  To both comes what constraints add.              */
+   light body midway between two heavy ones.  To both comes what constraints add: to Q the rounding
+   of g as well, which a velocity must not show.                                               */
 GVI__CALLED gvi_real gvi__excess(const gvi_stepper *st, gvi_real h, const gvi__stage *stage, int all)
 {
     const int parts = gvi__parts(&st->in) != 0;
@@ -3778,9 +3780,10 @@ GVI__CALLED gvi_real gvi__excess(const gvi_stepper *st, gvi_real h, const gvi__s
 
     for (const gvi__stage *y = stage; y < stage + st->in.stages; ++y)
         for (int i = 0; i < st->n && !y->quiet; ++i) {
+            const int moves = all && y->of == GVI__OF_Q;
             const gvi_real m = gvi__inertia(st, i), unit = gvi__amplitude_of(st, h, y, m),
                            size = all ? largest : unit*gvi__size_of_row(st, y, i),
-                           push = parts ? gvi__place_push(st, h, i, m, all) : 0;
+                           push = parts ? gvi__place_push(st, h, i, m, eps, moves) : 0;
             if (!(y->scale[i] > 0) || !(y->change[i] > 0)) continue;
             const gvi_real change = unit*(GVI_SQRT(y->change[i])/y->scale[i]);
             excess = gvi__larger(change/(eps*size + GVI_SQRT(m)*push), excess);
@@ -5992,7 +5995,7 @@ static int gvi__newton_converged(gvi_stepper *st, gvi__descent *p, gvi_real chan
     const int right = p->holds || p->rho < quarter, proven = p->fresh && p->holds,
               noisy = (proven && change <= GVI_SQRT(GVI__EPS)) || p->work <= GVI__SOLVED*GVI__EPS,
               below = p->excess <= (gvi_real)(p->idle*p->idle)/8 || (noisy && p->idle > 2);
-    if (right && below && p->idle > 0) return GVI__DONE;
+    if (right && below && p->idle > 1) return GVI__DONE;
 
     // one ratio by an old matrix may be luck: above the floor the one before must agree
     const int confirmed = proven || p->excess <= 1 || change*other <= enough;
@@ -6959,18 +6962,18 @@ GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int row, int point)
 }
 
 /* What constraints add to the floor of coordinate i, whatever its amplitude, as a length: h^2/m
-   times eps of a force of constraint; and for all, its last change where that came from the
+   times eps of a force of constraint; and for `moves`, its last change where that came from the
    rounding of g, which nearly dependent rows make large.                                      */
-static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m, int all)
+static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m,
+                                gvi_real eps, int moves)
 {
     const struct gvi__private *in = &st->in;
-    const gvi_real eps = GVI__EPS*(all ? GVI__NOISE : GVI__PLACE);
     gvi_real push = 0;
     if (!gvi__constrained(st)) return 0;
-    if (i == 0 && all) gvi__constraints_moved(st, in->con.W);
+    if (i == 0 && moves) gvi__constraints_moved(st, in->con.W);
     for (int e = 0; e < st->s; ++e) {
         gvi_real force = eps*GVI_ABS(h*in->con.force[i*in->R + e]);
-        if (all) force += in->con.W[i*in->con.C + e]/GVI_ABS(in->con.hw[e]);
+        if (moves) force += in->con.W[i*in->con.C + e]/GVI_ABS(in->con.hw[e]);
         push = gvi__larger(GVI_ABS(h)*force/m, push);
     }
     return push;
