@@ -1114,7 +1114,8 @@ typedef struct gvi_discrete {
 GVI_DEF size_t     gvi_size(const gvi_desc *desc);
 GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size);
 
-/* These start at time t.
+/* These start at time t; where that is st->t, st->t_low stays, so that a loop which corrects the
+   state at each step loses no time.
      gvi_start                  starts from configuration and velocity
      gvi_start_momentum         starts from configuration and momentum
      gvi_start_configurations   starts from q0 at t and q1 at t + h (solves the boundary-value
@@ -1123,8 +1124,9 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
    compare its jacobian and rate with differences of g next to (t, q).  An entry that is off by more
    than 1/512 of itself, and more than rounding hides (in float most of 1 %), is refused:
    GVI_E_ARGUMENT, its row in fault.coordinate.  Later steps do not look again.
-   GVI_E_CONSTRAINT where q or v is off a constraint: q by more than 4096 roundings of g, v if the
-   part that G v + dg/dt = 0 removes has more than (4096 eps)^2 of the kinetic energy.         */
+   GVI_E_CONSTRAINT where q or v is off a constraint: q by more than 4096 roundings of g's
+   terms and 4 of the largest |q_i| sqrt(M_ii), v if the part that G v + dg/dt = 0 removes has more
+   than (4096 eps)^2 of the kinetic energy.                                                    */
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v);
 GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                       const gvi_real *p);
@@ -4195,8 +4197,9 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, gvi_real *v)
     gvi__copy(n, in->step.p, in->state.p);
     gvi__zero(n, in->state.q_low);
     gvi__zero(n, in->state.p_low);
+    if (!in->started || gvi__nonzero(t - st->t)) st->t_low = 0;
     st->t = st->t0 = t;
-    st->h = st->t_low = st->resolution = st->next = 0;
+    st->h = st->resolution = st->next = 0;
     in->started = 1;
     in->stepped = in->kept = in->has_velocity = 0;
     in->predictor.ratio = 0;
@@ -7013,21 +7016,36 @@ static int gvi__beyond_rounding(gvi_real missed, gvi_real bend, gvi_real size)
     return bend > GVI__SOLVED*GVI__EPS*size && missed*bend > GVI__GRAIN*GVI__EPS*size*size;
 }
 
+// path += h M^-1 |G|'|z|: how far each impulse alone would move the coordinates, at one point
+static void gvi__add_path(const gvi_stepper *st, gvi_real h, const gvi_real *z, gvi_real *push,
+                          gvi_real *path)
+{
+    const int n = st->n;
+    gvi__zero((size_t)n, push);
+    for (int a = 0; a < st->in.con.m; ++a)
+        for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
+            push[i] += GVI_ABS(z[a]*st->in.con.G1[a*n + i]);
+    gvi__over_mass(st, push, 1, 1);
+    for (int i = 0; i < n; ++i) path[i] += GVI_ABS(h*push[i]);
+}
+
 /* RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, from a simplified Newton iteration.  A
    row is rounding if it exceeds by a quarter what its last correction, and the change of G along
-   it, should have left.  An error four times the least so far is divergence.                  */
+   it, should have left; or by what q1 was added up from, q0 and the paths, which cancel where q1
+   is near 0.  An error four times the least so far is divergence.                             */
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     if (!gvi__constrained(st)) return GVI_OK;
     gvi_real before = 0, least = GVI__MAX, *Q = in->work.Q, *z = in->con.rho, *left = in->con.y,
-             *d = in->con.W, *unit = d + n, *g = in->con.g,
+             *d = in->con.W, *unit = d + n, *g = in->con.g, *path = in->answer,
              *G = in->con.G1 + m*n;                  // G0 is before it
     const gvi_real t = from->t + (from->t_low + h);
     gvi_status status = gvi__constraints_at(st, from->t, from->q, NULL, NULL, in->con.drops);
     gvi__zero((size_t)n, in->step.p_low);
     in->con.again = 0;
+    for (int i = 0; i < n; ++i) path[i] = GVI_ABS(from->q[i]) + GVI_ABS(in->step.q[i]);
     for (int k = 0; ; ++k) {
         gvi_real size = 0;
         int finite = 1;
@@ -7036,7 +7054,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         if (status != GVI_OK) return status;
         if (k == 0 && !in->con.settled) (void)gvi__find_columns(st, 1, 1, G);
         for (int a = 0; a < m; ++a) {
-            const gvi_real terms = gvi__terms(st, 1, t, Q, G, g + m, a);
+            const gvi_real terms = gvi__terms(st, 1, t, path, G, g + m, a);
             gvi_real change = -z[a], all = 0;
             for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1)) {
                 change += h*(G[a*n + i]*d[i]);
@@ -7061,6 +7079,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         before = size;
         for (int a = 0; a < m; ++a) z[a] = -g[a]/h;
         gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
+        gvi__add_path(st, h, z, d, path);
         gvi__zero((size_t)n, d);
         gvi__add_force(st, z, d);
         gvi__add_scaled(n, 1, d, in->step.p, in->step.p);
@@ -7074,11 +7093,38 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
 
 /* ---- at the end of a step, and at the start ---- */
 
-/* Is each g_a within 4096 roundings, of its known terms or as measured?  To measure, take 1/4096 of
-   Newton's correction, forwards and back, and less: if g_a follows both, to a quarter of the
-   change that G at both ends tells, its rounding is below that, and g_a is none.  Of a row that is
-   left out, what those before it do not explain (A = L D L': L^-1 g) may be a contradiction, which
-   no move shows.  In a step (`start` 0) the others are as exact as its iteration made them.    */
+// the largest |q_i| sqrt(m_i), 1/m_i = (M^-1)_ii: what a coordinate near 0 may be the difference of
+GVI__COLD gvi_real gvi__amplitude(const gvi_stepper *st, const gvi_real *q, gvi_real *column)
+{
+    const int n = st->n;
+    gvi_real largest = 0;
+    for (int i = 0; i < n; ++i) {
+        gvi__zero((size_t)n, column);
+        column[i] = 1;
+        gvi__over_inertia(st, column, 1, 1);
+        const gvi_real size = GVI_ABS(q[i])/GVI_SQRT(GVI_ABS(column[i]));
+        if (gvi__finite(size)) largest = gvi__larger(size, largest);
+    }
+    return largest;
+}
+
+/* Is g_a, or what is left of a row that is left out, more than 4096 roundings of its known terms,
+   and 4 of the amplitude along the row?  That is < 0 as long as it is not known.              */
+GVI__COLD int gvi__doubtful(const gvi_stepper *st, const gvi_real *q, int a, gvi_real left,
+                            gvi_real terms, gvi_real *amplitude)
+{
+    const gvi_real dropped = st->in.con.drops[st->in.con.m + a];
+    if (GVI_ABS(left) <= GVI__HELD*GVI__EPS*terms) return 0;
+    if (*amplitude < 0) *amplitude = gvi__amplitude(st, q, st->in.con.W);
+    const gvi_real entry = dropped > 0 ? dropped : gvi__entry(st, 1, a, st->in.con.gram1);
+    return !(GVI_ABS(left) <= GVI__PLACE*GVI__EPS**amplitude*GVI_SQRT(GVI_ABS(entry)));
+}
+
+/* Is each g_a within 4096 roundings, as far as these are known, or as measured?  To measure, take
+   1/4096 of Newton's correction, forwards and back, and less: if g_a follows both, to a quarter of
+   the change that G at both ends tells, its rounding is below that, and g_a is none.  Of a row that
+   is left out, what those before it do not explain (A = L D L': L^-1 g) may be a contradiction,
+   which no move shows.  In a step (`start` 0) the others are as exact as its iteration made them. */
 GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                     const gvi_real *p, gvi_real *v, int start)
 {
@@ -7086,7 +7132,7 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
     const int n = st->n, m = in->con.m;
     const gvi_real *A = in->con.gram1;
     gvi_real *g = in->con.g, *was = in->con.rho, *doubt = was + m, *ahead = in->con.y,
-             *d = in->con.W, *next = d + n, *G = in->con.G1;
+             *d = in->con.W, *next = d + n, *G = in->con.G1, amplitude = -1;
     int off = -1, refused = -1;
 
     for (int a = 0; a < m; ++a) {
@@ -7097,8 +7143,8 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
             ahead[a] -= A[a*m + l]*ahead[l];
             if (left_out) terms += GVI_ABS(A[a*m + l])*gvi__terms(st, 1, t, q, G, g + m, l);
         }
-        doubt[a] = (gvi_real)((start || left_out) && !(GVI_ABS(left_out ? ahead[a] : g[a])
-                                                       <= GVI__HELD*GVI__EPS*terms));
+        doubt[a] = (gvi_real)((start || left_out)
+            && gvi__doubtful(st, q, a, left_out ? ahead[a] : g[a], terms, &amplitude));
         if (doubt[a] > 0) off = a;
         if (doubt[a] > 0 && left_out) refused = a;
     }
