@@ -7133,9 +7133,10 @@ GVI__COLD int gvi__doubtful(const gvi_stepper *st, const gvi_real *q, int a, gvi
    1/4096 of Newton's correction, forwards and back, and less: if g_a follows both, to a quarter of
    the change that G at both ends tells, its rounding is below that, and g_a is none.  Of a row that
    is left out, what those before it do not explain (A = L D L': L^-1 g) may be a contradiction,
-   which no move shows.  In a step (`start` 0) the others are as exact as its iteration made them. */
+   which no move shows.  In a step (`start` 0) the others are as exact as its iteration made them.
+   path: q, or what it was added up from.                                                      */
 GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real *q,
-                                    const gvi_real *p, gvi_real *v, int start)
+                                    const gvi_real *path, const gvi_real *p, gvi_real *v, int start)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
@@ -7146,14 +7147,14 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
 
     for (int a = 0; a < m; ++a) {
         const int left_out = in->con.drops[m + a] > 0;
-        gvi_real terms = gvi__terms(st, 1, t, q, G, g + m, a);
+        gvi_real terms = gvi__terms(st, 1, t, path, G, g + m, a);
         was[a] = ahead[a] = g[a];
         for (int l = (int)in->con.first[a]; l < a; ++l) {
             ahead[a] -= A[a*m + l]*ahead[l];
-            if (left_out) terms += GVI_ABS(A[a*m + l])*gvi__terms(st, 1, t, q, G, g + m, l);
+            if (left_out) terms += GVI_ABS(A[a*m + l])*gvi__terms(st, 1, t, path, G, g + m, l);
         }
         doubt[a] = (gvi_real)((start || left_out)
-            && gvi__doubtful(st, q, a, left_out ? ahead[a] : g[a], terms, &amplitude));
+            && gvi__doubtful(st, path, a, left_out ? ahead[a] : g[a], terms, &amplitude));
         if (doubt[a] > 0) off = a;
         if (doubt[a] > 0 && left_out) refused = a;
     }
@@ -7256,7 +7257,8 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
         status = gvi__report_row(st, GVI_E_SINGULAR, row, GVI_FAULT_NONE);
 
     if (status == GVI_OK) status = gvi__check_rank(st, start ? 0 : in->con.margin);
-    if ((start || redundant) && status == GVI_OK) status = gvi__fulfilled(st, t, q, p, v, start);
+    if ((start || redundant) && status == GVI_OK)
+        status = gvi__fulfilled(st, t, q, q, p, v, start);
     if (status != GVI_OK) return status;
     gvi__zero((size_t)m, in->con.y);
     for (int pass = 0; pass < passes; ++pass) {
@@ -7844,7 +7846,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     gvi_real *e = in->step.q, *f = in->step.p, *next = in->answer, *d = next + n, *u = d + n,
-             *push = in->point, *z = in->con.rho, *r = z + m, *back = r + m,
+             *push = in->point, *path = push + 2*n, *z = in->con.rho, *r = z + m, *back = r + m,
              *drops = in->con.drops + m, change = GVI__MAX, before = 0, size = 0, share = 1;
     // what a d2L/dv2 by differences leaves of a change
     const gvi_real root = GVI_SQRT(GVI__EPS),
@@ -7863,11 +7865,11 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         for (int a = 0; a < m && k > 0 && status == GVI_OK; ++a)
             noise += GVI__GRAIN*GVI_ABS(z[a])
                      *(GVI_ABS(in->con.g[a])
-                       + GVI__EPS*gvi__terms(st, 1, t, next, in->con.G1, in->con.g + m, a));
+                       + GVI__EPS*gvi__terms(st, 1, t, path, in->con.G1, in->con.g + m, a));
 
         if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK
             && change <= least*size + noise) {
-            if (gvi__fulfilled(st, t, next, NULL, u, 1) == GVI_OK) break;
+            if (gvi__fulfilled(st, t, next, path, NULL, u, 1) == GVI_OK) break;
             status = gvi__constraints_at(st, t, next, NULL, u, drops);
         }
         if (k > 1000 && status == GVI_OK) status = GVI_E_CONVERGENCE;
@@ -7896,6 +7898,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
             f[i] = push[i] + (1 - share)*f[i];
             e[i] = d[i] + (1 - share)*e[i];
             next[i] = q[i] + e[i];
+            path[i] = GVI_ABS(q[i]) + GVI_ABS(e[i]);
         }
         if (change > before && share > (gvi_real)0.02) share /= 2;
     }
@@ -7918,7 +7921,11 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         st->fault.argument = "gvi_project: a row (fault.coordinate of fault.effect) contradicts "
                              "others";
     if (status != GVI_OK) return st->status = status;
-    gvi__add_scaled(n, 1, e, q, q);
+    for (int i = 0; i < n; ++i) {                  // as v: what is left of a move to 0 is rounding
+        const gvi_real least = GVI__SOLVED*GVI__EPS*GVI_ABS(q[i]);
+        q[i] += e[i];
+        if (GVI_ABS(q[i]) <= least) q[i] = 0;
+    }
     gvi__copy((size_t)n, u, v);
     for (int k = 0; k < 2; ++k) moved[k] = GVI_SQRT(GVI_ABS(far[k]));
     return gvi__report_status(st, GVI_OK);

@@ -16,7 +16,8 @@
      impact     a gap closes.  Impulses of all touching contacts at once, Lambda >= 0 and v+ >= -e v-, one of them
                 an equality: a linear complementarity problem (LCP).  Where different e would gain energy, the least
                 of them counts, else 0.  Or pair by pair, the fastest first (in_turn: Newton's cradle)
-     captured   where e would leave a contact slower than `rest`, e is 0: that ends bounces that get ever shorter
+     captured   if all that approach are slower than `rest`, e is 0, and what would leave slower stays: that ends
+                bounces that get ever shorter
      closed     presses from here on: no normal speed, lambda >= 0, gap'' >= 0, again an LCP
      opened     presses no more, where its lambda changes sign.  At this instant the LCP is undecided: what presses
                 then is its solution 1/64 of the step later, on the motion as it was.  Of contacts that depend on
@@ -279,9 +280,8 @@ static inline gvi_status contact_start(contact *c, gvi_real t, const gvi_real *q
 enum { CONTACT__COLUMNS = 2*CONTACT_TOUCH + 2 };
 
 /* The row that leaves when column `in` enters: the least ratio, of ties the artificial variable, 2k.  */
-static inline int contact__leaves(int k, gvi_real (*T)[CONTACT__COLUMNS], const int *basis, int in)
+static inline int contact__leaves(int k, gvi_real (*T)[CONTACT__COLUMNS], const int *basis, int in, gvi_real small)
 {
-    const gvi_real small = 1000*contact__eps;
     int out = -1;
     for (int i = 0; i < k; ++i) {
         if (!(T[i][in] > small)) continue;
@@ -303,8 +303,8 @@ static inline void contact__pivot(int k, gvi_real (*T)[CONTACT__COLUMNS], int ou
     }
 }
 
-/* Lemke's method: z >= 0 with W z + b >= 0 and z'(W z + b) = 0, W [k][k] scaled to a diagonal of 1.  0: there is none. */
-static inline int contact__lcp(int k, const gvi_real *W, const gvi_real *b, gvi_real *z)
+/* Lemke's method on W scaled to a diagonal of 1, with this for zero in its pivots.  0: no z.  */
+static inline int contact__lemke(int k, const gvi_real *W, const gvi_real *b, gvi_real *z, gvi_real small)
 {
     gvi_real T[CONTACT_TOUCH][CONTACT__COLUMNS], d[CONTACT_TOUCH];
     int basis[CONTACT_TOUCH], out = -1, in = 2*k;
@@ -314,19 +314,34 @@ static inline int contact__lcp(int k, const gvi_real *W, const gvi_real *b, gvi_
         T[i][2*k] = -1, T[i][2*k + 1] = b[i]*d[i], basis[i] = i;
         if (T[i][2*k + 1] < 0 && (out < 0 || T[i][2*k + 1] < T[out][2*k + 1])) out = i;
     }
+    if (out < 0) return 1;
     for (int pass = 0; pass < 50*k + 50 && out >= 0; ++pass) {
         const int left = basis[out];
         contact__pivot(k, T, out, in);
         basis[out] = in;
         in = left < k ? left + k : left - k;
-        if (left < 2*k) out = contact__leaves(k, T, basis, in);
-        if (out < 0) return 0;
-        if (left < 2*k) continue;
-        for (int i = 0; i < k; ++i)
+        if (left < 2*k) out = contact__leaves(k, T, basis, in, small);
+        for (int i = 0; i < k && left == 2*k; ++i)
             if (basis[i] >= k && basis[i] < 2*k) z[basis[i] - k] = contact__most(T[i][2*k + 1], 0)*d[basis[i] - k];
-        return 1;
+        if (left == 2*k) return 1;
     }
-    return out < 0;
+    return 0;
+}
+
+/* z >= 0 with y = W z + b >= 0 and z'y = 0, W [k][k]; with another zero where rounding has led astray.  0: there is none. */
+static inline int contact__lcp(int k, const gvi_real *W, const gvi_real *b, gvi_real *z)
+{
+    const gvi_real root = GVI_SQRT(contact__eps);
+    for (gvi_real small = 1000*contact__eps; small < root; small *= 30) {
+        int wrong = !contact__lemke(k, W, b, z, small);
+        for (int i = 0; i < k && !wrong; ++i) {
+            gvi_real y = b[i], terms = contact__abs(b[i]);
+            for (int j = 0; j < k; ++j) y += W[i*k + j]*z[j], terms += contact__abs(W[i*k + j]*z[j]);
+            wrong = y < -root*terms || (z[i] > 0 && y > root*terms);
+        }
+        if (!wrong) return 1;
+    }
+    return 0;
 }
 
 /* ---- at one state: c->q, c->v ---- */
@@ -415,10 +430,11 @@ static inline gvi_status contact__measure(contact *c, contact_set *s)
 
 /* ---- impacts ---- */
 
-static inline gvi_real contact__restitution(const contact *c, int a, gvi_real speed)
+/* Is all that approaches slower than `rest`?  Then nothing bounces.  */
+static inline int contact__slow(const contact *c, const contact_set *s)
 {
-    const gvi_real e = c->e && speed < 0 ? c->e[a] : 0;
-    return e*-speed < c->rest ? 0 : e;
+    for (int i = 0; i < s->k; ++i) if (s->speed[i] <= -c->rest) return 0;
+    return 1;
 }
 
 /* Speeds after the impulses z, and the energy that they take; in *size what it is measured by.  */
@@ -439,7 +455,7 @@ static inline gvi_status contact__together(contact *c, contact_set *s, gvi_real 
 {
     gvi_real b[CONTACT_TOUCH], e[CONTACT_TOUCH], least = 1;
     for (int i = 0; i < s->k; ++i) {
-        e[i] = s->speed[i] < -s->tiny[i] ? contact__restitution(c, s->which[i], s->speed[i]) : 0;
+        e[i] = c->e && !contact__slow(c, s) && s->speed[i] < -s->tiny[i] ? c->e[s->which[i]] : 0;
         if (s->speed[i] < -s->tiny[i] && e[i] < least) least = e[i];
     }
     for (int pass = 0; pass < 3; ++pass) {
@@ -461,14 +477,14 @@ static inline gvi_status contact__in_turn(contact *c, contact_set *s, gvi_real *
             if (after[i] < -tiny && (f < 0 || after[i] < after[f])) f = i;
         }
         if (f < 0) return GVI_OK;
-        s->z[f] -= (1 + contact__restitution(c, s->which[f], after[f]))*after[f]/s->W[f*s->k + f];
+        s->z[f] -= (1 + (c->e && after[f] < -c->rest ? c->e[s->which[f]] : 0))*after[f]/s->W[f*s->k + f];
     }
     return contact__fail(c, s->which[0], CONTACT_E_JAMMED);
 }
 
 static inline gvi_status contact__impact(contact *c, contact_set *s)
 {
-    const int n = c->st.n;
+    const int n = c->st.n, slow = contact__slow(c, s);
     gvi_real after[CONTACT_TOUCH], taken, size;
     const gvi_status status = (c->in_turn ? contact__in_turn : contact__together)(c, s, after, &taken, &size);
     if (status) return status;
@@ -480,8 +496,8 @@ static inline gvi_status contact__impact(contact *c, contact_set *s)
         c->impulse[a] = s->z[i];
         if (s->z[i] > 0) contact__tell(c, CONTACT_IMPACT, a);
         s->tiny[i] += 256*contact__eps*GVI_SQRT(size*s->W[i*s->k + i]);
-        s->speed[i] = after[i];
-        if (bounces && after[i] <= s->tiny[i]) contact__tell(c, CONTACT_CAPTURED, a);
+        s->speed[i] = slow && after[i] < c->rest ? 0 : after[i];
+        if (slow && (bounces || s->speed[i] < after[i])) contact__tell(c, CONTACT_CAPTURED, a);
     }
     return GVI_OK;
 }
@@ -542,6 +558,7 @@ static inline gvi_status contact__forces(contact *c, contact_set *s)
 static inline gvi_status contact__hold(contact *c, const contact_set *s)
 {
     contact_row was[CONTACT_TOUCH];
+    gvi_real moved[2];
     int on = 0;
     gvi_status status = contact__switch(c, &c->st, 0);
     if (status) return status;
@@ -552,8 +569,9 @@ static inline gvi_status contact__hold(contact *c, const contact_set *s)
         if (on == c->slots) return contact__fail(c, s->which[i], CONTACT_E_TOO_MANY);
         c->row[on].which = s->which[i], c->row[on].lambda = s->z[i], c->row[on++].on = 1;
     }
-    if (!(status = contact__switch(c, &c->probe, on))) status = gvi_project(&c->probe, c->st.t, c->q, c->v, NULL);
+    if (!(status = contact__switch(c, &c->probe, on))) status = gvi_project(&c->probe, c->st.t, c->q, c->v, moved);
     if (status) c->why = gvi_why(&c->probe);
+    else c->energy += moved[1]*moved[1]/2;                // of those that were captured as they left
     if (status) return status == GVI_E_CONSTRAINT ? contact__fail(c, s->which[0], CONTACT_E_JAMMED) : status;
     if ((status = gvi_start(&c->st, c->st.t, c->q, c->v))) c->why = gvi_why(&c->st);
     if (status || (status = contact__switch(c, &c->st, on))) return status;
@@ -570,15 +588,21 @@ static inline gvi_status contact__hold(contact *c, const contact_set *s)
     return GVI_OK;
 }
 
-/* At the present state, where a gap has closed, or -1: impact, and what presses after it.  */
-static inline gvi_status contact__resolve(contact *c, int closed)
+/* At the present state, where a gap has closed, or -1: impact, and what presses after it.  One that closes at once
+   has left by less than rounding shows: it is captured.  */
+static inline gvi_status contact__resolve(contact *c, int closed, int at_once)
 {
     contact_set s;
     int hit = 0;
     gvi_status status = contact__load(c);
     if (!status) status = contact__touching(c, closed, &s);
     if (!status) status = contact__measure(c, &s);
-    for (int i = 0; i < s.k && !status; ++i) hit |= s.speed[i] < -s.tiny[i] && contact__on(c, s.which[i]) < 0;
+    for (int i = 0; i < s.k && !status; ++i) {
+        hit |= s.speed[i] < -s.tiny[i] && contact__on(c, s.which[i]) < 0;
+        if (!at_once || s.which[i] != closed || s.speed[i] <= s.tiny[i]) continue;
+        s.speed[i] = 0;
+        contact__tell(c, CONTACT_CAPTURED, closed);
+    }
     if (!status && hit) status = contact__impact(c, &s);
     if (!status) status = contact__forces(c, &s);
     return status ? status : contact__hold(c, &s);
@@ -858,7 +882,7 @@ static inline gvi_status contact__once(contact *c, int k, gvi_real h, gvi_real t
     if (status) return status;
     for (int a = 0; a < c->count && part > 0; ++a) c->left[a] -= c->left[a] > 0;
     if (bits) status = contact__reopen(c, k, whole, part, bits);
-    else if (closes >= 0) status = contact__resolve(c, closes);
+    else if (closes >= 0) status = contact__resolve(c, closes, !(part > 0));
     c->st.next = next;
     return status;
 }
@@ -874,7 +898,7 @@ static inline gvi_status contact__run(contact *c, gvi_real h, gvi_real t_end, in
     contact__save(c, 0);
     c->way = (dial ? t_end < c->st.t : h < 0) ? -1 : 1;
     c->h = contact__abs(!dial ? h : c->st.next > 0 || c->st.next < 0 ? c->st.next : (t_end - c->st.t)/64);
-    if (c->fresh && !(status = contact__resolve(c, -1))) c->fresh = 0, contact__save(c, k = 1);
+    if (c->fresh && !(status = contact__resolve(c, -1, 0))) c->fresh = 0, contact__save(c, k = 1);
     for (int i = 0; !status; ++i) {
         status = i == most ? contact__fail(c, -1, CONTACT_E_PILE_UP) : contact__once(c, k, left, t_end, dial, &made);
         left -= made;
