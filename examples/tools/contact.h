@@ -693,6 +693,22 @@ static inline void contact__sample(contact *c, gvi_real x, int k)
     }
 }
 
+/* Would each gap have to change four times as fast inside each half of the step as at its ends, to reach 0 there?  */
+static inline int contact__far(contact *c)
+{
+    contact__sample(c, 0, 0);
+    for (int k = 1; k <= 2; ++k) {
+        contact__samples *const l = &c->sample[1 - k % 2], *const r = &c->sample[k % 2];
+        contact__sample(c, (gvi_real)k/2, k % 2);
+        for (int a = 0; a < c->count; ++a) {
+            const gvi_real speed = contact__most(contact__abs(l->slope[a]), contact__abs(r->slope[a]));
+            if (contact__on(c, a) >= 0) continue;
+            if (!(l->phi[a] > l->noise[a] && r->phi[a] > r->noise[a] && l->phi[a] + r->phi[a] > 2*speed)) return 0;
+        }
+    }
+    return 1;
+}
+
 /* The first gap that closes on the curve after x[0]: which, between x[0] and x[1], or -1.  One that has opened, or
    left an impact, is to be open before it can close.  */
 static inline int contact__closing(contact *c, gvi_real *x)
@@ -700,6 +716,7 @@ static inline int contact__closing(contact *c, gvi_real *x)
     const int points = c->st.s < 3 ? 4 : c->st.s + 1;
     gvi_real from = x[0];
     int which = -1;
+    if (!(from > 0) && contact__far(c)) return -1;
     contact__sample(c, from, 0);
     for (int a = 0; a < c->count; ++a) c->touches[a] = c->sample[0].phi[a] <= c->sample[0].noise[a];
     for (int k = 1; k <= points && which < 0; ++k) {
