@@ -7922,9 +7922,9 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
                              "others";
     if (status != GVI_OK) return st->status = status;
     for (int i = 0; i < n; ++i) {                  // as v: what is left of a move to 0 is rounding
-        const gvi_real least = GVI__SOLVED*GVI__EPS*GVI_ABS(q[i]);
+        const gvi_real rounding = GVI__SOLVED*GVI__EPS*GVI_ABS(q[i]);
         q[i] += e[i];
-        if (GVI_ABS(q[i]) <= least) q[i] = 0;
+        if (GVI_ABS(q[i]) <= rounding) q[i] = 0;
     }
     gvi__copy((size_t)n, u, v);
     for (int k = 0; k < 2; ++k) moved[k] = GVI_SQRT(GVI_ABS(far[k]));

@@ -531,7 +531,7 @@ static inline gvi_status contact__free(contact *c, int a, gvi_real w, gvi_real *
 /* z: forces of those that touch without normal speed.  */
 static inline gvi_status contact__forces(contact *c, contact_set *s)
 {
-    gvi_real b[CONTACT_TOUCH], z[CONTACT_TOUCH], W[CONTACT_TOUCH*CONTACT_TOUCH], most = 0;
+    gvi_real b[CONTACT_TOUCH] = { 0 }, z[CONTACT_TOUCH], W[CONTACT_TOUCH*CONTACT_TOUCH] = { 0 }, most = 0;
     int in[CONTACT_TOUCH], k = 0;
     gvi_status status = GVI_OK;
     for (int i = 0; i < s->k; ++i) {
@@ -758,23 +758,36 @@ static inline gvi_status contact__land(contact *c, int k, int a, gvi_real h, gvi
     return GVI_OK;
 }
 
-/* The least of a row's multipliers as the step has kept them, in parts of its largest; *x: where.  < 0: not known.  */
+/* The multiplier of a row in the step, as it has kept it.  */
+static inline gvi_real contact__kept(contact *c, gvi_real x, int row)
+{
+    return gvi_curve_multipliers(&c->st, x, c->lambda) ? 0 : c->lambda[c->before + row];
+}
+
+/* The least multiplier of a row in the step, in parts of the row's largest; *x: where, by parabolas.  0: not known.  */
 static inline gvi_real contact__least(contact *c, gvi_real *x)
 {
     const int points = 2*c->st.s;
-    gvi_real low[CONTACT_TOUCH], most[CONTACT_TOUCH], at[CONTACT_TOUCH], least = 1;
+    gvi_real low[CONTACT_TOUCH], most[CONTACT_TOUCH] = { 0 }, at[CONTACT_TOUCH], least = 1, step = 1/(gvi_real)points;
+    int row = -1;
     for (int k = 0; k <= points; ++k) {
         const gvi_real y = (gvi_real)k/(gvi_real)points;
-        if (gvi_curve_multipliers(&c->st, y, c->lambda)) return -1;
+        if (gvi_curve_multipliers(&c->st, y, c->lambda)) return 0;
         for (int i = 0; i < c->slots; ++i) {
             const gvi_real l = c->lambda[c->before + i];
             if (k == 0 || l < low[i]) low[i] = l, at[i] = y;
-            most[i] = k == 0 ? contact__abs(l) : contact__most(most[i], contact__abs(l));
+            most[i] = contact__most(most[i], contact__abs(l));
+            c->row[i].lambda = l;
         }
     }
     for (int i = 0; i < c->slots; ++i)
-        if (c->row[i].on && low[i] < least*most[i]) least = low[i]/most[i], *x = at[i];
-    for (int i = 0; i < c->slots; ++i) c->row[i].lambda = c->lambda[c->before + i];
+        if (c->row[i].on && low[i] <= least*most[i]) least = most[i] > 0 ? low[i]/most[i] : 0, *x = at[i], row = i;
+    for (int j = 0; j < 4 && row >= 0 && *x > 0 && *x < 1; ++j) {
+        step = -contact__most(-step/4, contact__most(-*x, *x - 1));
+        const gvi_real l = contact__kept(c, *x - step, row), r = contact__kept(c, *x + step, row),
+                       bend = l + r - 2*contact__kept(c, *x, row);
+        if (bend > 0) *x -= step*((r - l)/(2*bend));
+    }
     return least;
 }
 
@@ -827,10 +840,9 @@ static inline gvi_status contact__opening(contact *c, int k, gvi_real h, gvi_rea
     *bits = 0;
     for (int i = 0; i < c->slots; ++i) on |= c->row[i].on;
     if (!on || !(*x > 0)) return GVI_OK;
-    const gvi_real least = contact__least(c, &at);
-    if (least > (gvi_real)0.125 && c->st.s > 1) return GVI_OK;        // whatever the polynomial is off by
+    if (contact__least(c, &at) > (gvi_real)0.125 && c->st.s > 1) return GVI_OK;        // whatever the polynomial is off by
     if ((status = contact__negative(c, end, bits))) return status;
-    if (!*bits && least < (gvi_real)0.125 && at < 1 && at > 0) {      // below 0 inside, and not at the end?
+    if (!*bits && at < 1 && at > 0) {                                 // below 0 inside, and not at the end?
         status = contact__again(c, k, at**x*h);
         if (!status) status = contact__negative(c, end, bits);
         if (!status && *bits) *x *= at;
