@@ -24,7 +24,7 @@ CMOCKA_LIBS   = $$(pkg-config --libs cmocka 2>/dev/null || echo -lcmocka)
 
 TESTS = $(sort $(basename $(notdir $(wildcard tests/test_*.c))))
 # These in float and in long double as well, and these compiled for size.
-TYPED = $(filter $(addprefix test_,constraints constraints_newton rolling loops resolution regressions effects interpolation jumps lu uncoupled mass newton oracle points quadrature padding tangent adjoint event body damped lagrangian tolerance no_trace why),$(TESTS))
+TYPED = $(filter $(addprefix test_,constraints constraints_newton rolling loops resolution regressions effects interpolation jumps lu uncoupled mass newton oracle points quadrature padding tangent adjoint event contact body damped lagrangian tolerance no_trace why),$(TESTS))
 SMALL = $(filter $(addprefix test_,constraints loops regressions uncoupled mass newton points padding tolerance no_trace why),$(TESTS))
 # Left out: test_constraints in long double, whose code test_constraints_newton and test_loops run in it too; for size in
 # float, which changes no loop that size or float alone does not, all but rows and states that must not change.

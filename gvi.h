@@ -7922,7 +7922,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
                              "others";
     if (status != GVI_OK) return st->status = status;
     for (int i = 0; i < n; ++i) {                  // as v: what is left of a move to 0 is rounding
-        const gvi_real rounding = GVI__SOLVED*GVI__EPS*GVI_ABS(q[i]);
+        const gvi_real rounding = GVI__GRAIN*(gvi_real)m*GVI__EPS*GVI_ABS(q[i]);
         q[i] += e[i];
         if (GVI_ABS(q[i]) <= rounding) q[i] = 0;
     }

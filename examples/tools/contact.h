@@ -84,7 +84,8 @@ typedef struct contact {
     contact_told_fn *told;                 /* of each event, c->st being there; or NULL                   */
     void            *user;                 /* handed to gap                                               */
     const gvi_real  *e;                    /* [count] restitution, or NULL: 0                             */
-    gvi_real         rest;                 /* speed of a gap below which nothing bounces                  */
+    gvi_real         rest, touch;          /* speed of a gap below which nothing bounces; gap that counts as 0,
+                                              besides the rounding of its own terms                       */
     int              in_turn, most;        /* pair by pair; events a step, 0: 1000                        */
 
     gvi_stepper      st;                   /* from here on to be read                                     */
@@ -101,7 +102,7 @@ typedef struct contact {
     contact__samples sample[2];
     size_t           bytes;                /* of memory, size and left                                    */
     const char      *why;
-    int              first, before, fresh; /* effect and row of slot 0; has no step been made?            */
+    int              first, before, fresh, at_once;  /* effect and row of slot 0; has no step been made?  */
 } contact;
 
 static const gvi_real contact__eps = (gvi_real)(sizeof(gvi_real) == sizeof(float) ? FLT_EPSILON
@@ -176,7 +177,7 @@ static inline gvi_real contact__gap(contact *c, int a, gvi_real t, const gvi_rea
     terms = contact__abs(r)*(contact__abs(t) + c->h) + c->size[a];
     *rate = r + contact__dot(n, G, v);
     for (int i = 0; i < n; ++i) terms += contact__abs(G[i])*(contact__abs(q[i]) + contact__abs(c->h*v[i]));
-    return 64*contact__eps*terms;
+    return 64*contact__eps*terms + c->touch;
 }
 
 static inline void contact__tell(contact *c, contact_kind kind, int a)
@@ -334,10 +335,11 @@ static inline int contact__lcp(int k, const gvi_real *W, const gvi_real *b, gvi_
     const gvi_real root = GVI_SQRT(contact__eps);
     for (gvi_real small = 1000*contact__eps; small < root; small *= 30) {
         int wrong = !contact__lemke(k, W, b, z, small);
+        gvi_real size = 0;
+        for (int i = 0; i < k; ++i) size = contact__most(size, contact__abs(b[i])/GVI_SQRT(W[i*k + i]));
         for (int i = 0; i < k && !wrong; ++i) {
-            gvi_real y = b[i], terms = contact__abs(b[i]);
-            for (int j = 0; j < k; ++j) y += W[i*k + j]*z[j], terms += contact__abs(W[i*k + j]*z[j]);
-            wrong = y < -root*terms || (z[i] > 0 && y > root*terms);
+            const gvi_real y = (b[i] + contact__dot(k, W + i*k, z))/GVI_SQRT(W[i*k + i]);
+            wrong = y < -root*size || (z[i] > 0 && y > root*size);
         }
         if (!wrong) return 1;
     }
@@ -657,8 +659,8 @@ static inline gvi_real contact__lowest(contact *c, int a, gvi_real x, gvi_real *
     return phi;
 }
 
-/* Does gap a close on the curve between x[0] and x[1], where the samples 1 - k and k are?  Then x is around that;
-   x[1] = x[0]: at once.  */
+/* Does gap a close on the curve between x[0] and x[1], where the samples 1 - k and k are?  Then x is around that, or
+   c->at_once: it has not been open before x[1].  */
 static inline int contact__closes(contact *c, int a, gvi_real *x, int k)
 {
     const gvi_real p0 = c->sample[1 - k].phi[a], p1 = c->sample[k].phi[a], s0 = c->sample[1 - k].slope[a],
@@ -671,14 +673,14 @@ static inline int contact__closes(contact *c, int a, gvi_real *x, int k)
         if (low <= noise && low >= -noise) contact__tell(c, CONTACT_GRAZED, a);
         return low < -noise;
     }
-    for (int j = 0; c->touches[a] > 0 && j < 40; ++j) {    // it leaves first: where is it open?
+    c->at_once = c->touches[a] > 0;
+    for (int j = 0; c->at_once && j < 40; ++j) {           // it leaves first: where is it open?
         y = begin + (x[1] - begin)/2;
         noise = contact__curve(c, y, a, &low, &unused);
-        if (low > noise) return x[0] = y, 1;
-        if (low < -noise) x[1] = y;
+        if (low > noise) x[0] = y, c->at_once = 0;
+        else if (low < -noise) x[1] = y;
         else break;
     }
-    if (c->touches[a] > 0) x[1] = begin;
     return 1;
 }
 
@@ -744,6 +746,7 @@ static inline gvi_status contact__land(contact *c, int k, int a, gvi_real h, gvi
         const gvi_status status = contact__again(c, k, y*h);
         if (status) return status;
         const gvi_real noise = contact__gap(c, a, c->st.t, c->q, c->v, &phi, &rate), size = contact__abs(phi);
+        if (c->at_once) return phi < -noise ? contact__again(c, k, lo*h) : (x[0] = -1, GVI_OK);
         x[0] = y;
         if (size <= noise/64 || (least >= 0 && j > 3 && size >= least && size <= noise)) break;
         least = size;
@@ -891,17 +894,15 @@ static inline gvi_status contact__once(contact *c, int k, gvi_real h, gvi_real t
 {
     gvi_real x[2] = { 0, 1 }, part = 1;
     unsigned bits = 0;
-    int closes = -1, which;
+    int closes = -1, at_once = 0, which;
     gvi_status status = dial ? gvi_advance(&c->st, t_end) : gvi_step(&c->st, h);
     if (status) c->why = gvi_why(&c->st);
     const gvi_real next = c->st.next, whole = c->st.h;
     while (!status && (which = contact__closing(c, x)) >= 0) {
         const gvi_real after = x[1] + (gvi_real)1e-3;
         x[0] *= part, x[1] *= part;
-        if (x[1] > x[0]) status = contact__land(c, k, which, whole, x);
-        else status = contact__again(c, k, x[0]*whole);
-        if (status) break;
-        if (x[0] >= 0) closes = which, part = x[0], x[0] = 0;
+        if ((status = contact__land(c, k, which, whole, x))) break;
+        if (x[0] >= 0) closes = which, part = x[0], x[0] = 0, at_once = c->at_once;
         else if (!(status = contact__again(c, k, part*whole))) x[0] = after < 1 ? after : 1;
         if (!(part > 0)) break;
         x[1] = 1;
@@ -911,7 +912,7 @@ static inline gvi_status contact__once(contact *c, int k, gvi_real h, gvi_real t
     if (status) return status;
     for (int a = 0; a < c->count && part > 0; ++a) c->left[a] -= c->left[a] > 0;
     if (bits) status = contact__reopen(c, k, whole, part, bits);
-    else if (closes >= 0) status = contact__resolve(c, closes, !(part > 0));
+    else if (closes >= 0) status = contact__resolve(c, closes, at_once);
     c->st.next = next;
     return status;
 }
