@@ -1,7 +1,7 @@
 # studies.mk - what Makefile includes: long checks, measurements, pictures.  `make help-all` lists them.
 
 .PHONY: headers-quick headers symbols chapters docs-check reference bound float instructions prices usable languages boards sanitize sanitized any_processor \
-        ensemble deps-ensemble embedded-page tolerances firmware deps-firmware fuzz fuzz-short fuzz-rolling fuzz-rolling-short size stats compare everywhere deps-everywhere \
+        ensemble deps-ensemble embedded-page tolerances firmware deps-firmware fuzz fuzz-short fuzz-rolling fuzz-rolling-short fuzz-contact fuzz-contact-short size stats compare everywhere deps-everywhere \
         cost-dial cost-rebound cost-horizon cost-constraints cost-rolling kicks points from-l mycost cost-embedded hard theorems mutants coverage covered
 
 # -- steps of `make test` and `make check`; each can be run alone
@@ -81,6 +81,10 @@ fuzz fuzz-short: | $(FIRST)
 #: fuzz-rolling 200,000 random rolling scenes against an index-1 reference (twenty minutes); SEED=2: others
 fuzz-rolling fuzz-rolling-short: $(BUILD)/hard/rolling_scenes
 	$(STEP) $@ $< $(if $(findstring short,$@),2000,200000) $(SEED)
+
+#: fuzz-contact 2,000,000 steps of random contact scenes, each judged from outside (five minutes); SEED=2: others
+fuzz-contact fuzz-contact-short: $(BUILD)/hard/contact_scenes
+	$(STEP) $@ $< $(if $(findstring short,$@),100000,2000000) $(SEED)
 
 #: deps-firmware installs what firmware, size and boards need: compilers for Arm, RISC-V and AVR, qemu, simavr
 deps-firmware: | $(filter deps deps-check,$(MAKECMDGOALS))

@@ -105,8 +105,13 @@ typedef struct contact {
     int              first, before, fresh, at_once;  /* effect and row of slot 0; has no step been made?  */
 } contact;
 
-static const gvi_real contact__eps = (gvi_real)(sizeof(gvi_real) == sizeof(float) ? FLT_EPSILON
-    : sizeof(gvi_real) == sizeof(double) ? DBL_EPSILON : LDBL_EPSILON);
+#if GVI__KIND == 1
+static const gvi_real contact__eps = FLT_EPSILON;
+#elif GVI__KIND == 2
+static const gvi_real contact__eps = DBL_EPSILON;
+#else
+static const gvi_real contact__eps = LDBL_EPSILON;
+#endif
 
 static inline gvi_real contact__abs(gvi_real a) { return a < 0 ? -a : a; }
 static inline gvi_real contact__most(gvi_real a, gvi_real b) { return a > b ? a : b; }
@@ -597,9 +602,10 @@ static inline gvi_status contact__resolve(contact *c, int closed, int at_once)
     contact_set s;
     int hit = 0;
     gvi_status status = contact__load(c);
+    s.k = 0;
     if (!status) status = contact__touching(c, closed, &s);
     if (!status) status = contact__measure(c, &s);
-    for (int i = 0; i < s.k && !status; ++i) {
+    for (int i = 0; !status && i < s.k; ++i) {
         hit |= s.speed[i] < -s.tiny[i] && contact__on(c, s.which[i]) < 0;
         if (!at_once || s.which[i] != closed || s.speed[i] <= s.tiny[i]) continue;
         s.speed[i] = 0;
@@ -870,6 +876,7 @@ static inline gvi_status contact__reopen(contact *c, int k, gvi_real h, gvi_real
 {
     contact_set s;
     gvi_status status = contact__load(c);
+    s.k = 0;
     if (!status) status = contact__touching(c, -1, &s);
     if (!status && (status = gvi_step(&c->st, h/64))) c->why = gvi_why(&c->st);
     if (!status) status = contact__load(c);
@@ -898,6 +905,7 @@ static inline gvi_status contact__once(contact *c, int k, gvi_real h, gvi_real t
     gvi_status status = dial ? gvi_advance(&c->st, t_end) : gvi_step(&c->st, h);
     if (status) c->why = gvi_why(&c->st);
     const gvi_real next = c->st.next, whole = c->st.h;
+    c->h = contact__abs(whole);
     while (!status && (which = contact__closing(c, x)) >= 0) {
         const gvi_real after = x[1] + (gvi_real)1e-3;
         x[0] *= part, x[1] *= part;
@@ -940,7 +948,17 @@ static inline gvi_status contact__run(contact *c, gvi_real h, gvi_real t_end, in
 }
 
 static inline gvi_status contact_step(contact *c, gvi_real h) { return contact__run(c, h, 0, 0); }
-static inline gvi_status contact_advance(contact *c, gvi_real t_end) { return contact__run(c, 0, t_end, 1); }
+
+/* A step made again may miss, by the rounding of its measure, what the dial has let pass: shorter, then.  */
+static inline gvi_status contact_advance(contact *c, gvi_real t_end)
+{
+    gvi_status status = contact__run(c, 0, t_end, 1);
+    for (int k = 0; k < 10 && status == GVI_E_RESOLUTION; ++k) {
+        c->st.next = c->way*c->h/2;
+        status = contact__run(c, 0, t_end, 1);
+    }
+    return status;
+}
 
 static inline gvi_real contact_force(contact *c, int a)
 {
