@@ -134,10 +134,10 @@ unit: $(PROGRAMS)
 PICTURES = $(if $(filter figures,$(MAKECMDGOALS)),docs/img,$(BUILD)/pictures)
 
 #: figures      makes the pictures in docs/img/ again, scenes included; theorems: make theorems PICTURES=docs/img
-figures: scenes $(addprefix $(BUILD)/examples/,05_outer_solar_system 18_close_encounters 34_low_thrust 35_swing_up 19_section 28_racket 32_ensemble 21_rods 23_engine)
+figures: scenes $(addprefix $(BUILD)/examples/,05_outer_solar_system 18_close_encounters 34_low_thrust 35_swing_up 19_section 28_racket 32_ensemble 21_rods 23_engine 49_lift_off 51_rocking_block)
 	$(Q)mkdir -p docs/img
 	$(Q)$(BUILD)/examples/05_outer_solar_system 200000 200 8 docs/img
-	$(Q)set -e; for e in 34_low_thrust 35_swing_up 19_section 28_racket 21_rods 23_engine; do \
+	$(Q)set -e; for e in 34_low_thrust 35_swing_up 19_section 28_racket 21_rods 23_engine 49_lift_off 51_rocking_block; do \
 	    $(BUILD)/examples/$$e --svg docs/img/$${e#*_}.svg; done
 	$(Q)$(BUILD)/examples/18_close_encounters --svg docs/img/three_ways.svg
 	$(Q)$(BUILD)/examples/32_ensemble 120 $(BUILD)/ensemble.csv docs/img/ensemble.svg
