@@ -137,7 +137,8 @@
               settle: its changes then count as rounding below 32 eps of the
               largest |q_i| sqrt(M_ii).
 
-   gvi.h does not: treat contact, run in parallel, or read or write anything.
+   gvi.h does not: find contacts (examples/tools/contact.h does), run in parallel, or read or
+   write anything.
 
 
    OPTIONS
