@@ -334,7 +334,7 @@ static inline int contact__lemke(int k, const gvi_real *W, const gvi_real *b, gv
     return 0;
 }
 
-/* z >= 0 with y = W z + b >= 0 and z'y = 0, W [k][k]; with another zero where rounding has led astray.  0: there is none. */
+/* z >= 0 with y = W z + b >= 0 and z'y = 0, W [k][k]; with another zero where rounding has led astray.  0: none.  */
 static inline int contact__lcp(int k, const gvi_real *W, const gvi_real *b, gvi_real *z)
 {
     const gvi_real root = GVI_SQRT(contact__eps);
@@ -653,7 +653,8 @@ static inline gvi_real contact__curve(contact *c, gvi_real x, int a, gvi_real *p
 }
 
 /* The lowest point between x and *to, where the slopes s0 < 0 < s1; or the first found that is below 0.  */
-static inline gvi_real contact__lowest(contact *c, int a, gvi_real x, gvi_real *to, gvi_real s0, gvi_real s1, gvi_real noise)
+static inline gvi_real contact__lowest(contact *c, int a, gvi_real x, gvi_real *to, gvi_real s0, gvi_real s1,
+                                       gvi_real noise)
 {
     gvi_real l = x, r = *to, phi = 0, slope;
     for (int j = 0; j < 40 && r - l > GVI_SQRT(contact__eps); ++j) {
@@ -819,8 +820,10 @@ static inline gvi_status contact__negative(contact *c, gvi_real *end, unsigned *
 static inline gvi_status contact__zero(contact *c, int k, gvi_real h, const gvi_real *end, unsigned bits, gvi_real *x)
 {
     gvi_real a = 0, b = *x, fa = 1, fb = -1, y, f;
-    for (int i = 0; i < c->slots; ++i)
-        if (bits >> i & 1u) fa = contact__abs(c->saved[k].row[i].lambda/end[i]) < fa ? contact__abs(c->saved[k].row[i].lambda/end[i]) : fa;
+    for (int i = 0; i < c->slots; ++i) {
+        const gvi_real part = contact__abs(c->saved[k].row[i].lambda/end[i]);
+        if ((bits >> i & 1u) && part < fa) fa = part;
+    }
     for (int j = 0, side = 0; j < 60; ++j) {
         y = a + (b - a)*(fa/(fa - fb));
         if (!(y > a && y < b)) y = a + (b - a)/2;
@@ -849,7 +852,7 @@ static inline gvi_status contact__opening(contact *c, int k, gvi_real h, gvi_rea
     *bits = 0;
     for (int i = 0; i < c->slots; ++i) on |= c->row[i].on;
     if (!on || !(*x > 0)) return GVI_OK;
-    if (contact__least(c, &at) > (gvi_real)0.125 && c->st.s > 1) return GVI_OK;        // whatever the polynomial is off by
+    if (contact__least(c, &at) > (gvi_real)0.125 && c->st.s > 1) return GVI_OK;       // by more than its own error
     if ((status = contact__negative(c, end, bits))) return status;
     if (!*bits && at < 1 && at > 0) {                                 // below 0 inside, and not at the end?
         status = contact__again(c, k, at**x*h);
@@ -927,12 +930,15 @@ static inline gvi_status contact__once(contact *c, int k, gvi_real h, gvi_real t
 
 static inline gvi_status contact__run(contact *c, gvi_real h, gvi_real t_end, int dial)
 {
-    const int most = c->most > 0 ? c->most : 1000;
+    const int most = c->most > 0 ? c->most : 1000, fresh = c->fresh;
+    const gvi_real energy = c->energy;
+    unsigned long long seen[CONTACT_KINDS];
     gvi_real left = h, made = 0;
     gvi_status status = GVI_OK;
     int k = 0;
     c->fault = -1;
     c->why = gvi_status_text(GVI_OK);
+    memcpy(seen, c->seen, sizeof seen);
     contact__save(c, 0);
     c->way = (dial ? t_end < c->st.t : h < 0) ? -1 : 1;
     c->h = contact__abs(!dial ? h : c->st.next > 0 || c->st.next < 0 ? c->st.next : (t_end - c->st.t)/64);
@@ -943,7 +949,10 @@ static inline gvi_status contact__run(contact *c, gvi_real h, gvi_real t_end, in
         if (status || dial || contact__abs(left) <= 8*contact__eps*contact__abs(h)) break;
         contact__save(c, k = 1);
     }
-    if (status) contact__back(c, 0), c->fresh |= c->st.counters.steps == 0;
+    if (!status) return GVI_OK;
+    contact__back(c, 0);
+    memcpy(c->seen, seen, sizeof seen);
+    c->fresh = fresh, c->energy = energy;
     return status;
 }
 
