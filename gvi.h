@@ -7134,10 +7134,9 @@ GVI__COLD int gvi__doubtful(const gvi_stepper *st, const gvi_real *q, int a, gvi
    1/4096 of Newton's correction, forwards and back, and less: if g_a follows both, to a quarter of
    the change that G at both ends tells, its rounding is below that, and g_a is none.  Of a row that
    is left out, what those before it do not explain (A = L D L': L^-1 g) may be a contradiction,
-   which no move shows.  In a step (`start` 0) the others are as exact as its iteration made them.
-   path: q, or what it was added up from.                                                      */
+   which no move shows.  In a step (`start` 0) the others are as exact as its iteration made them. */
 GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real *q,
-                                    const gvi_real *path, const gvi_real *p, gvi_real *v, int start)
+                                    const gvi_real *p, gvi_real *v, int start)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
@@ -7148,14 +7147,14 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
 
     for (int a = 0; a < m; ++a) {
         const int left_out = in->con.drops[m + a] > 0;
-        gvi_real terms = gvi__terms(st, 1, t, path, G, g + m, a);
+        gvi_real terms = gvi__terms(st, 1, t, q, G, g + m, a);
         was[a] = ahead[a] = g[a];
         for (int l = (int)in->con.first[a]; l < a; ++l) {
             ahead[a] -= A[a*m + l]*ahead[l];
-            if (left_out) terms += GVI_ABS(A[a*m + l])*gvi__terms(st, 1, t, path, G, g + m, l);
+            if (left_out) terms += GVI_ABS(A[a*m + l])*gvi__terms(st, 1, t, q, G, g + m, l);
         }
         doubt[a] = (gvi_real)((start || left_out)
-            && gvi__doubtful(st, path, a, left_out ? ahead[a] : g[a], terms, &amplitude));
+            && gvi__doubtful(st, q, a, left_out ? ahead[a] : g[a], terms, &amplitude));
         if (doubt[a] > 0) off = a;
         if (doubt[a] > 0 && left_out) refused = a;
     }
@@ -7259,7 +7258,7 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
 
     if (status == GVI_OK) status = gvi__check_rank(st, start ? 0 : in->con.margin);
     if ((start || redundant) && status == GVI_OK)
-        status = gvi__fulfilled(st, t, q, q, p, v, start);
+        status = gvi__fulfilled(st, t, q, p, v, start);
     if (status != GVI_OK) return status;
     gvi__zero((size_t)m, in->con.y);
     for (int pass = 0; pass < passes; ++pass) {
@@ -7831,6 +7830,13 @@ static gvi_real gvi__project_velocity(gvi_stepper *st, gvi_real *v)
     return way;
 }
 
+// q + e; 0 where what is left of a move to it is rounding
+static gvi_real gvi__arrived(const gvi_stepper *st, gvi_real q, gvi_real e)
+{
+    const gvi_real rounding = GVI__GRAIN*(gvi_real)st->in.con.m*GVI__EPS;
+    return GVI_ABS(q + e) <= rounding*GVI_ABS(q) ? 0 : q + e;
+}
+
 /* The iteration q' = q + e, e = M^-1 G'z with g + G(e_new - e) = 0: (G M^-1 G') z = G e - g at the
    last q'.  So e is normal to the constraints where it ends, and e'M e is z'(G e - g).  What moves
    along the constraints is damped, by `share`, where changes grow; g is taken to 0 in any case. */
@@ -7870,7 +7876,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
 
         if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK
             && change <= least*size + noise) {
-            if (gvi__fulfilled(st, t, next, path, NULL, u, 1) == GVI_OK) break;
+            if (gvi__fulfilled(st, t, next, NULL, u, 1) == GVI_OK) break;
             status = gvi__constraints_at(st, t, next, NULL, u, drops);
         }
         if (k > 1000 && status == GVI_OK) status = GVI_E_CONVERGENCE;
@@ -7898,7 +7904,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
             size += (GVI_ABS(push[i]) + GVI_ABS(f[i]))*(GVI_ABS(d[i]) + GVI_ABS(e[i]));
             f[i] = push[i] + (1 - share)*f[i];
             e[i] = d[i] + (1 - share)*e[i];
-            next[i] = q[i] + e[i];
+            next[i] = gvi__arrived(st, q[i], e[i]);
             path[i] = GVI_ABS(q[i]) + GVI_ABS(e[i]);
         }
         if (change > before && share > (gvi_real)0.02) share /= 2;
@@ -7922,11 +7928,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         st->fault.argument = "gvi_project: a row (fault.coordinate of fault.effect) contradicts "
                              "others";
     if (status != GVI_OK) return st->status = status;
-    for (int i = 0; i < n; ++i) {                  // as v: what is left of a move to 0 is rounding
-        const gvi_real rounding = GVI__GRAIN*(gvi_real)m*GVI__EPS*GVI_ABS(q[i]);
-        q[i] += e[i];
-        if (GVI_ABS(q[i]) <= rounding) q[i] = 0;
-    }
+    for (int i = 0; i < n; ++i) q[i] = gvi__arrived(st, q[i], e[i]);
     gvi__copy((size_t)n, u, v);
     for (int k = 0; k < 2; ++k) moved[k] = GVI_SQRT(GVI_ABS(far[k]));
     return gvi__report_status(st, GVI_OK);
