@@ -7134,7 +7134,8 @@ GVI__COLD int gvi__doubtful(const gvi_stepper *st, const gvi_real *q, int a, gvi
    1/4096 of Newton's correction, forwards and back, and less: if g_a follows both, to a quarter of
    the change that G at both ends tells, its rounding is below that, and g_a is none.  Of a row that
    is left out, what those before it do not explain (A = L D L': L^-1 g) may be a contradiction,
-   which no move shows.  In a step (`start` 0) the others are as exact as its iteration made them. */
+   which no move shows.  In a step (`start` 0) the others are as exact as its iteration made
+   them.                                                                                       */
 GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                     const gvi_real *p, gvi_real *v, int start)
 {
