@@ -289,7 +289,8 @@ TEST(agrees_with_derivatives_by_hand)
             assert_ok(gvi_step(&hand, cases[k].h));
             assert_ok(gvi_step(&st, cases[k].h));
         }
-        for (int i = 0; i < 2; ++i) assert_close(hand.q[i], st.q[i], 45000*EPS);      /* 1e-11 in double */
+        // roundings of the energy walk, and each moves the phase from then on
+        for (int i = 0; i < 2; ++i) assert_close(hand.q[i], st.q[i], 4*pow(steps, R(1.5))*cases[k].h*EPS);
     }
 }
 
