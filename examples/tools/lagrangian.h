@@ -92,8 +92,10 @@
 /* Numbers are double where the library's are float: products of small ones do not underflow. */
 #if GVI__KIND == 1
 typedef double lagrangian_real;
+#define LAGRANGIAN__SQRT(x) sqrt(x)
 #else
 typedef GVI_REAL lagrangian_real;
+#define LAGRANGIAN__SQRT(x) GVI_SQRT(x)
 #endif
 
 /* What is wanted of a function F(t,q,w) at the points of x: `scale` times its value and its
@@ -141,7 +143,7 @@ static inline int lagrangian_dissipates(const lagrangian_function *F, const gvi_
 
    y of x, and dy/dx; z of x and y, dz/dx and dz/dy                             */
 #define LAGRANGIAN__OF_ONE(OF)                                                                  \
-    OF(sqrt, sqrt(x), 1/(2*y))                                                                  \
+    OF(sqrt, LAGRANGIAN__SQRT(x), 1/(2*y))                                                      \
     OF(cbrt, cbrt(x), 1/(3*y*y))                                                                \
     OF(exp, exp(x), y)                                                                          \
     OF(log, log(x), 1/x)                                                                        \
@@ -187,8 +189,10 @@ LAGRANGIAN__INLINE number lagrangian_number(lagrangian_real value, lagrangian_re
 #define LAGRANGIAN__NUMBER(name, value, slope)                                                  \
     static inline number lagrangian_##name(number a)                                            \
     {                                                                                           \
-        const lagrangian_real x = creal(a), d = cimag(a), y = value;                            \
-        return lagrangian_number(y, lagrangian_is_zero(d) ? 0 : (slope)*d);                     \
+        const lagrangian_real x = creal(a), d = cimag(a);                                       \
+        if (lagrangian_is_zero(d)) return value;                                                \
+        const lagrangian_real y = value;                                                        \
+        return lagrangian_number(y, (slope)*d);                                                 \
     }
 #define LAGRANGIAN__NUMBERS(name, value, slope_x, slope_y)                                      \
     LAGRANGIAN__INLINE number lagrangian_##name(number a, number b)                             \
@@ -255,16 +259,18 @@ LAGRANGIAN__OF_TWO(LAGRANGIAN__NUMBERS)
 /* One coordinate after the other; z[2n]: q and w. */
 typedef number lagrangian_body(number t, const number *q, const number *w, const void *user);
 
-LAGRANGIAN__INLINE gvi_real lagrangian_slope_of(number y, const lagrangian_wanted *a)
+LAGRANGIAN__INLINE gvi_real lagrangian_slope_of(number y, const lagrangian_wanted *a, lagrangian_real by)
 {
-    const lagrangian_real slope = cimag(y)/LAGRANGIAN__STEP;
-    return fabs(slope) <= a->least*fabs(creal(y)) ? 0 : (gvi_real)(a->scale*slope);
+    if (a->least > 0 && fabs(cimag(y)) <= a->least*LAGRANGIAN__STEP*fabs(creal(y))) return 0;
+    return (gvi_real)(by*cimag(y));
 }
 
-LAGRANGIAN__INLINE void lagrangian_add(lagrangian_body *F, int n, number *z, const lagrangian_wanted *a)
+LAGRANGIAN__INLINE void lagrangian_add(lagrangian_body *F, int n, number *z, const lagrangian_wanted *wanted)
 {
+    const lagrangian_wanted own = *wanted, *a = &own;         // which no output overlaps
     const gvi_points *x = a->x;
     const int from = a->by_q ? 0 : n + a->first, to = a->by_w ? n + a->end : n, R = x->stride;
+    const lagrangian_real by = a->scale/LAGRANGIAN__STEP;
     for (int k = 0; k < x->count; ++k) {
         if (lagrangian_rests(a, k)) continue;
         for (int i = 0; i < n; ++i) {
@@ -281,10 +287,10 @@ LAGRANGIAN__INLINE void lagrangian_add(lagrangian_body *F, int n, number *z, con
             y = F(x->t[k], z, z + n, a->user);
             if (d >= to) break;
             z[d] = at;
-            if (d < n) a->by_q[d*R + k] += lagrangian_slope_of(y, a);
-            else a->by_w[(d - n)*a->apart + k] += lagrangian_slope_of(y, a);
+            if (d < n) a->by_q[d*R + k] += lagrangian_slope_of(y, a, by);
+            else a->by_w[(d - n)*a->apart + k] += lagrangian_slope_of(y, a, by);
         } while (++d < to);
-        if (a->along) a->by_along[k] += lagrangian_slope_of(y, a);
+        if (a->along) a->by_along[k] += lagrangian_slope_of(y, a, by);
         if (a->value) a->value[k] += (gvi_real)(a->scale*creal(y));
     }
 }
@@ -398,28 +404,26 @@ template <int N> struct lagrangian_dual {
         for (int i = 0; i < N; ++i) any |= !lagrangian_is_zero(d[i]);
         return any;
     }
-    void add(lagrangian_real slope, const number &a)
+    static number steep(lagrangian_real f, lagrangian_real slope, const number &a)
     {
-        for (int i = 0; i < N; ++i) d[i] += lagrangian_is_zero(a.d[i]) ? 0 : slope*a.d[i];
+        number y(f);
+        for (int i = 0; i < N; ++i) y.d[i] = lagrangian_is_zero(a.d[i]) ? 0 : slope*a.d[i];
+        return y;
     }
 #define LAGRANGIAN__NUMBER(name, f_of_x, slope)                                                 \
     friend number name(const number &a)                                                         \
     {                                                                                           \
         using namespace std;                                                                    \
-        const lagrangian_real x = a.value, y = f_of_x;                                          \
-        number f(y);                                                                            \
-        if (a.varies()) f.add(slope, a);                                                        \
-        return (void)x, f;                                                                      \
+        const lagrangian_real x = a.value, y = f_of_x, by_x = slope;                            \
+        return (void)x, by_x - by_x >= 0 ? of(y, by_x, a) : steep(y, by_x, a);                  \
     }
 #define LAGRANGIAN__NUMBERS(name, f_of_xy, slope_x, slope_y)                                    \
     friend number name(const number &a, const number &b)                                        \
     {                                                                                           \
         using namespace std;                                                                    \
         const lagrangian_real x = a.value, y = b.value, z = f_of_xy;                        \
-        number f(z);                                                                            \
-        if (a.varies()) f.add(slope_x, a);                                                      \
-        if (b.varies()) f.add(slope_y, b);                                                      \
-        return f;                                                                               \
+        const number f = steep(z, slope_x, a);                                                  \
+        return b.varies() ? f + steep(0, slope_y, b) : f;                                       \
     }
     LAGRANGIAN__OF_ONE(LAGRANGIAN__NUMBER)
     LAGRANGIAN__OF_TWO(LAGRANGIAN__NUMBERS)
@@ -437,11 +441,13 @@ enum { LAGRANGIAN__REST, LAGRANGIAN__Q, LAGRANGIAN__W, LAGRANGIAN__BOTH, LAGRANG
 
 inline gvi_real lagrangian_slope_of(lagrangian_real value, lagrangian_real slope, const lagrangian_wanted *a)
 {
-    return std::fabs(slope) <= a->least*std::fabs(value) ? 0 : (gvi_real)(a->scale*slope);
+    if (a->least > 0 && std::fabs(slope) <= a->least*std::fabs(value)) return 0;
+    return (gvi_real)(a->scale*slope);
 }
 
-template <class F, int n, int what> LAGRANGIAN__UNROLLED inline void lagrangian_add(const lagrangian_wanted *a)
+template <class F, int n, int what> LAGRANGIAN__UNROLLED inline void lagrangian_add(const lagrangian_wanted *wanted)
 {
+    const lagrangian_wanted own = *wanted, *a = &own;         // which no output overlaps
     enum { along = what == LAGRANGIAN__ALONG, by_q = what != LAGRANGIAN__W && !along,
            by_w = what == LAGRANGIAN__W || what == LAGRANGIAN__BOTH, w_at = by_q ? n : 0 };
     typedef lagrangian_dual<along ? 1 : by_q && by_w ? 2*n : n> number;
@@ -1299,7 +1305,7 @@ static inline const char *lagrangian_text(const lagrangian *L)
 /* ------------------------------------------------------------------ the watch
 
    Is L still what it was found to be?  One dL/dv_i at one point of 32 against what L.kind says, at the v of the step
-   or, where a step makes none, at one that its points show.  Of C every second look also compares a
+   or, where a step makes none, at one that its points show.  Of C every fourth look also compares a
    derivative with a difference, along the motion.  What is off makes the callback fail, and from then on all points
    are looked at until none is.                                                 */
 
@@ -1363,7 +1369,7 @@ static inline int lagrangian_look(lagrangian *L, const gvi_points *x)
         lagrangian_state(L, x, k, q, v, way);
         if (!lagrangian_finite(n, q) || !lagrangian_finite(n, v)) continue;      // an iterate that went astray
         if (lagrangian_is_other(L, x->t[k], q, v, L->looks%n)) return lagrangian_fail(L, x);
-        if (LAGRANGIAN__LOSES && (L->alert || L->looks%2) && lagrangian_loses(L, x->t[k], q, v, way)) return lagrangian_fail(L, x);
+        if (LAGRANGIAN__LOSES && (L->alert || L->looks%4 == 0) && lagrangian_loses(L, x->t[k], q, v, way)) return lagrangian_fail(L, x);
     }
     if (L->alert) --L->alert;
     L->t = x->t[end - 1];
