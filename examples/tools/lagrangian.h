@@ -581,6 +581,13 @@ static inline gvi_real lagrangian_largest(int count, const gvi_real *x)
     return most;
 }
 
+/* A size of x_i: its own, or that of others, or 1 */
+static inline gvi_real lagrangian_scale(int count, const gvi_real *x, int i)
+{
+    const gvi_real own = lagrangian_size(x[i]), most = lagrangian_largest(count, x);
+    return own > 0 ? own : most > 0 ? most : 1;
+}
+
 static inline int lagrangian_finite(int count, const gvi_real *x)
 {
     for (int i = 0; i < count; ++i)
@@ -706,24 +713,30 @@ static inline gvi_real lagrangian_noise(const gvi_real *y)
     return most;
 }
 
-/* df/ds at 0.  Richardson's extrapolation of 20 central differences, each of half the width of the one before;
-   the entry where neighbours agree best.  rounding: of f because of that of its arguments.  error < 0: there are none. */
+/* df/ds at 0, from central differences, each of half the width of the one before, by one of Richardson's
+   extrapolations: the one that agrees best with the two before it, unless a narrower one contradicts it.
+   rounding: of f because of that of its arguments.  error < 0: there are none. */
 static inline gvi_real lagrangian_difference(lagrangian_curve *f, const void *of, gvi_real size, gvi_real rounding, gvi_real *error)
 {
-    gvi_real near_by[9], best = 0, width = size/8, row[2] = { 0, 0 };
+    const gvi_real apart = GVI_SQRT(lagrangian_eps())/16*size;
+    gvi_real near_by[9], best = 0, width = size/8, row[2] = { 0, 0 }, before = 0;
     int rows = 0;
-    for (int k = 0; k < 9; ++k) near_by[k] = f(of, (gvi_real)lagrangian_places[k]*size/4096);
-    const gvi_real noise = lagrangian_noise(near_by), grain = noise > rounding ? noise : rounding;
+    for (int k = 0; k < 9; ++k) near_by[k] = f(of, (gvi_real)lagrangian_places[k]*apart);
+    const gvi_real noise = lagrangian_noise(near_by), grain = rounding + (lagrangian_finite(1, &noise) ? noise : 0);
 
     *error = -1;
-    for (int k = 0; k < 20; ++k, width /= 2) {
-        const gvi_real up = f(of, width), down = f(of, -width), first = (up - down)/(2*width);
+    for (int k = 0; k < 40; ++k, width /= 2) {
+        const gvi_real up = f(of, width), down = f(of, -width), first = (up - down)/(2*width),
+                       rough = (4*lagrangian_eps()*lagrangian_size(up) + grain)/width;
         if (!lagrangian_finite(1, &first)) continue;
-        const gvi_real second = first + (first - row[0])/3, off = (4*lagrangian_eps()*lagrangian_size(up) + grain)/width + lagrangian_size(second - row[1]);
-        if (rows++ > 1 && (*error < 0 || off < *error)) {
+        const gvi_real second = first + (first - row[0])/3, change = lagrangian_size(second - row[1]),
+                       off = rough + (change > before ? change : before);
+        const int contradicts = lagrangian_size(second - best) > 4*(*error + off);
+        if (rows++ > 2 && (*error < 0 || off < *error || contradicts)) {
             best = second;
             *error = off;
         }
+        before = change;
         row[0] = first;
         row[1] = second;
     }
@@ -935,9 +948,8 @@ static inline const char *lagrangian_compare(lagrangian *L, gvi_real t, const gv
     if (!lagrangian_finite(2*n, g)) return NULL;
     for (int d = 0; d < 2*n; ++d) {
         const gvi_real *z = d < n ? q : w;
-        gvi_real direction[2*LAGRANGIAN_MOST] = { 0 }, error, most = lagrangian_largest(n, z), size = lagrangian_size(z[d%n]);
-        if (most <= 0) most = size = 1;
-        if (size < most/1000) size = most/1000;
+        const gvi_real size = lagrangian_scale(n, z, d%n);
+        gvi_real direction[2*LAGRANGIAN_MOST] = { 0 }, error;
         direction[d] = 1;
         const struct lagrangian__line line = { &L->function, L->user, t, q, w, direction, -1 };
         const gvi_real right = lagrangian_difference(lagrangian_on_line, &line, size, 0, &error);
@@ -951,11 +963,10 @@ static inline const char *lagrangian_compare(lagrangian *L, gvi_real t, const gv
 }
 
 /* What L(t,q,v) and H(t,q,p) have to be: of a size there is room for, finite with its derivatives at the start,
-   and with derivatives that are right, there and at states near it and farther off. */
+   and with derivatives that are right, there and at two states near it. */
 static inline const char *lagrangian_begin(lagrangian *L, lagrangian_function function, const void *user, gvi_real t,
                                            const gvi_real *q, const gvi_real *w, const char *name, const char *of)
 {
-    static const double reach[] = { 0, 0.05, 0.05, 1, 3 };
     const int n = function.n;
     gvi_real at[2*LAGRANGIAN_MOST], g[2*LAGRANGIAN_MOST];
     unsigned seed = 7;
@@ -978,12 +989,13 @@ static inline const char *lagrangian_begin(lagrangian *L, lagrangian_function fu
         if (!lagrangian_finite(1, g + i))
             return lagrangian_refuse(L, "d%s/d%s[%d] is not finite at the start", name, i < n ? "q" : of, i%n);
 
-    for (int sample = 0; sample < 5; ++sample) {
+    for (int sample = 0; sample < 3; ++sample) {
+        const gvi_real reach = sample ? 1/(gvi_real)1024 : 0;
         for (int d = 0; d < 2*n; ++d) {
-            const gvi_real *z = d < n ? q : w, size = lagrangian_largest(n, z);
-            at[d] = z[d%n] + (gvi_real)reach[sample]*(size > 0 ? size : 1)*lagrangian_random(&seed);
+            const gvi_real *z = d < n ? q : w;
+            at[d] = z[d%n] + reach*lagrangian_scale(n, z, d%n)*lagrangian_random(&seed);
         }
-        if (!lagrangian_compare(L, t + (gvi_real)reach[sample], at, at + n)) continue;
+        if (!lagrangian_compare(L, t + reach, at, at + n)) continue;
         L->kind = LAGRANGIAN_REFUSED;
         return L->why;
     }
@@ -1238,16 +1250,14 @@ static inline void lagrangian_first_mass(lagrangian *L, gvi_real t, const gvi_re
 static inline void lagrangian_search(lagrangian *L, gvi_real t, const gvi_real *q, const gvi_real *v)
 {
     const int n = L->function.n, samples = n > 8 ? 48 : 144;
-    const gvi_real most = lagrangian_largest(n, q), own_t = lagrangian_size(t);
     gvi_real x[LAGRANGIAN_MOST], w[LAGRANGIAN_MOST];
     unsigned seed = 1;
     for (int sample = 0; sample < samples && L->kind != LAGRANGIAN_GENERAL; ++sample) {
         const int here = sample%3 == 0, narrow = sample%4 == 1 ? 4 : 20;
         const gvi_real speed = sample%2 ? 1 : lagrangian_decade(&seed, 80),
-                       wait = here ? 0 : (own_t > 0 ? own_t : 1)*lagrangian_decade(&seed, 40);
+                       wait = here ? 0 : lagrangian_scale(1, &t, 0)*lagrangian_decade(&seed, 40);
         for (int i = 0; i < n; ++i) {
-            const gvi_real own = lagrangian_size(q[i]), size = own > 0 ? own : most > 0 ? most : 1,
-                           way = here ? 0 : size*lagrangian_decade(&seed, narrow);
+            const gvi_real way = here ? 0 : lagrangian_scale(n, q, i)*lagrangian_decade(&seed, narrow);
             x[i] = q[i] + way*lagrangian_random(&seed);
             w[i] = sample ? speed*lagrangian_random(&seed) + (sample%4 < 2 ? v[i] : 0) : v[i];
         }
