@@ -297,10 +297,10 @@ LAGRANGIAN__INLINE void lagrangian_add(lagrangian_body *F, int n, number *z, con
 
 #define LAGRANGIAN__DECLARE(name, n)                                                            \
     LAGRANGIAN__INLINE number name##_at(number t, const number *q, const number *w, const void *user); \
-    LAGRANGIAN__PLAIN static void name##_add(const lagrangian_wanted *wanted)                   \
+    LAGRANGIAN__PLAIN static void name##_add(const lagrangian_wanted *lagrangian_w)             \
     {                                                                                           \
-        number z[2*(n)];                                                                        \
-        lagrangian_add(name##_at, n, z, wanted);                                                \
+        number lagrangian_z[2*(n)];                                                             \
+        lagrangian_add(name##_at, n, lagrangian_z, lagrangian_w);                               \
     }
 #define LAGRANGIAN__BODY(name, w)                                                               \
     LAGRANGIAN__INLINE number name##_at(LAGRANGIAN__UNUSED number t, LAGRANGIAN__UNUSED const number *q, \
@@ -335,11 +335,11 @@ static inline void lagrangian_rows_add(lagrangian_rows_body *F, int n, int m, nu
 
 #define LAGRANGIAN__ROWS(name, n, m)                                                            \
     static inline void name##_at(number t, const number *q, const number *v, number *row, const void *user); \
-    static void name##_rows(lagrangian_real t, const lagrangian_real *q, const lagrangian_real *w, int by, \
-                                              lagrangian_real *values, lagrangian_real *slopes, const void *user) \
+    static void name##_rows(lagrangian_real t, const lagrangian_real *q, const lagrangian_real *v, int lagrangian_by, \
+                            lagrangian_real *row, lagrangian_real *lagrangian_slopes, const void *user) \
     {                                                                                           \
-        number z[2*(n) + (m)];                                                                  \
-        lagrangian_rows_add(name##_at, n, m, z, t, q, w, by, values, slopes, user);             \
+        number lagrangian_z[2*(n) + (m)];                                                       \
+        lagrangian_rows_add(name##_at, n, m, lagrangian_z, t, q, v, lagrangian_by, row, lagrangian_slopes, user); \
     }
 #define LAGRANGIAN__ROWS_BODY(name)                                                             \
     static inline void name##_at(LAGRANGIAN__UNUSED number t, LAGRANGIAN__UNUSED const number *q, \
@@ -484,7 +484,7 @@ template <class F, int n> inline void lagrangian_any(const lagrangian_wanted *a)
     struct name##_body {                                                                        \
         template <class number> number at(number t, const number *q, const number *w, const void *user) const; \
     };                                                                                          \
-    static void name##_add(const lagrangian_wanted *wanted) { lagrangian_any<name##_body, n>(wanted); }
+    static void name##_add(const lagrangian_wanted *lagrangian_w) { lagrangian_any<name##_body, n>(lagrangian_w); }
 #define LAGRANGIAN__BODY(name, w)                                                               \
     template <class number>                                                                     \
     LAGRANGIAN__UNROLLED LAGRANGIAN__ALWAYS inline number name##_body::at(                      \
@@ -514,10 +514,10 @@ inline void lagrangian_rows_add(lagrangian_real t, const lagrangian_real *q, con
     struct name##_body {                                                                        \
         template <class number> void at(number t, const number *q, const number *v, number *row, const void *user) const; \
     };                                                                                          \
-    static void name##_rows(lagrangian_real t, const lagrangian_real *q, const lagrangian_real *w, int by, \
-                            lagrangian_real *values, lagrangian_real *slopes, const void *user) \
+    static void name##_rows(lagrangian_real t, const lagrangian_real *q, const lagrangian_real *v, int lagrangian_by, \
+                            lagrangian_real *row, lagrangian_real *lagrangian_slopes, const void *user) \
     {                                                                                           \
-        lagrangian_rows_add<name##_body, n, m>(t, q, w, by, values, slopes, user);              \
+        lagrangian_rows_add<name##_body, n, m>(t, q, v, lagrangian_by, row, lagrangian_slopes, user); \
     }
 #define LAGRANGIAN__ROWS_BODY(name)                                                             \
     template <class number>                                                                     \
@@ -535,10 +535,10 @@ inline void lagrangian_rows_add(lagrangian_real t, const lagrangian_real *q, con
 
 #define LAGRANGIAN__ROW(name, n, m, rows)                                                       \
     LAGRANGIAN__ROWS(name, n, m)                                                                \
-    static int name(const gvi_points *x, void *user)                                            \
+    static int name(const gvi_points *lagrangian_x, void *user)                                 \
     {                                                                                           \
-        lagrangian_real room[4*(n) + (m)*((n) + 4)];                                            \
-        return rows(name##_rows, n, m, room, x, user);                                          \
+        lagrangian_real lagrangian_room[4*(n) + (m)*((n) + 4)];                                 \
+        return rows(name##_rows, n, m, lagrangian_room, lagrangian_x, user);                    \
     }                                                                                           \
     LAGRANGIAN__ROWS_BODY(name)
 #define HOLDS(name, n, m) LAGRANGIAN__ROW(name, n, m, lagrangian_holds)
@@ -546,10 +546,10 @@ inline void lagrangian_rows_add(lagrangian_real t, const lagrangian_real *q, con
 
 #define DISSIPATION(name, n)                                                                    \
     LAGRANGIAN__DECLARE(name, n)                                                                \
-    static int name(const gvi_points *x, void *user)                                            \
+    static int name(const gvi_points *lagrangian_x, void *user)                                 \
     {                                                                                           \
-        const lagrangian_function F = { n, name##_add };                                        \
-        return lagrangian_dissipates(&F, x, user);                                              \
+        const lagrangian_function lagrangian_f = { n, name##_add };                             \
+        return lagrangian_dissipates(&lagrangian_f, lagrangian_x, user);                        \
     }                                                                                           \
     LAGRANGIAN__BODY(name, v)
 
@@ -765,10 +765,11 @@ static inline gvi_real lagrangian_on_line(const void *of, gvi_real s)
     return lagrangian_slope(l->F, l->user, l->t, q, w, 1, n + l->p);
 }
 
-/* A derivative by numbers against one by differences that is right up to `error` */
+/* A derivative by numbers against one by differences that is right up to `error`: by chance two widths may agree
+   to several digits, so that what is less than 1/4096 of the whole counts as right. */
 static inline int lagrangian_apart(gvi_real by_numbers, gvi_real right, gvi_real error)
 {
-    const gvi_real bound = 20*error + GVI_SQRT(lagrangian_eps())/16*lagrangian_size(right) + lagrangian_smallest();
+    const gvi_real bound = 20*error + lagrangian_size(right)/4096 + lagrangian_smallest();
     return error >= 0 && lagrangian_size(by_numbers - right) > bound;
 }
 
