@@ -161,7 +161,9 @@ TEST(kinds_are_found_far_from_the_start)
         { &dense, LAGRANGIAN_POTENTIAL, { R(0.1), R(0.2) }, { 0, 1 } },
     };
     for (int k = 0; k < COUNT(cases); ++k) {
-        assert_null(lagrangian_init(lagrangians, *cases[k].L, NULL, 0, cases[k].q, cases[k].v));
+        const char *wrong = lagrangian_init(lagrangians, *cases[k].L, NULL, 0, cases[k].q, cases[k].v);
+        if (wrong) print_error("%d: %s\n", k, wrong);
+        assert_null(wrong);
         assert_int_equal(lagrangians[0].kind, cases[k].kind);
     }
     assert_int_equal(lagrangian_mass(lagrangians).kind, GVI_MASS_DENSE);

@@ -769,7 +769,7 @@ static inline gvi_real lagrangian_on_line(const void *of, gvi_real s)
    to several digits, so that what is less than 1/4096 of the whole counts as right. */
 static inline int lagrangian_apart(gvi_real by_numbers, gvi_real right, gvi_real error)
 {
-    const gvi_real bound = 20*error + lagrangian_size(right)/4096 + lagrangian_smallest();
+    const gvi_real bound = 8*error + lagrangian_size(right)/4096 + lagrangian_smallest();
     return error >= 0 && lagrangian_size(by_numbers - right) > bound;
 }
 
@@ -991,7 +991,7 @@ static inline const char *lagrangian_begin(lagrangian *L, lagrangian_function fu
             return lagrangian_refuse(L, "d%s/d%s[%d] is not finite at the start", name, i < n ? "q" : of, i%n);
 
     for (int sample = 0; sample < 3; ++sample) {
-        const gvi_real reach = sample ? 1/(gvi_real)1024 : 0;
+        const gvi_real reach = sample ? 8*GVI_SQRT(GVI_SQRT(lagrangian_eps())) : 0;
         for (int d = 0; d < 2*n; ++d) {
             const gvi_real *z = d < n ? q : w;
             at[d] = z[d%n] + reach*lagrangian_scale(n, z, d%n)*lagrangian_random(&seed);
@@ -1102,9 +1102,9 @@ static inline gvi_real lagrangian_hessian(const lagrangian *L, gvi_real t, const
             for (int k = 0; k < (size > 0 ? 1 : 10); ++k, width /= 1024) {   // at rest: of speeds of any size
                 gvi_real error;
                 const gvi_real h = lagrangian_difference(lagrangian_on_line, &line, width, 0, &error);
-                if (error < 0 || (least >= 0 && !(error < least*lagrangian_size(h)))) continue;
+                if (error < 0 || lagrangian_size(h) <= 0 || (least >= 0 && !(error < least*lagrangian_size(h)))) continue;
                 H[i*n + j] = h;
-                least = lagrangian_size(h) > 0 ? error/lagrangian_size(h) : 0;
+                least = error/lagrangian_size(h);
             }
             if (least > worst) worst = least;
         }
