@@ -24,11 +24,11 @@
 static const double w = 0.5, slope = 0.3, spin = 1.5, b = 2;
 
 LAGRANGIAN(bead, 2) { return (v[0]*v[0] + v[1]*v[1])/2; }
-HOLDS(wire, 2, 1) { row[0] = cos(w*t)*q[1] - sin(w*t)*q[0]; }
-DISSIPATION(rubs, 2) { return b*(v[0]*v[0] + v[1]*v[1])/2; }
-
 LAGRANGIAN(blade, 3) { return (v[0]*v[0] + v[1]*v[1])/2 + 0.1*v[2]*v[2] + 9.81*sin(slope)*q[0]; }
+
+HOLDS(wire, 2, 1) { row[0] = cos(w*t)*q[1] - sin(w*t)*q[0]; }
 ROLLS(edge, 3, 1) { row[0] = sin(q[2])*v[0] - cos(q[2])*v[1]; }
+DISSIPATION(rubs, 2) { return b*(v[0]*v[0] + v[1]*v[1])/2; }
 
 /* A ball of mass and radius 1: its centre, and Euler's angles, which give the speed of turning in space */
 #define TURNING                                                                                 \
