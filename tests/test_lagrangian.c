@@ -352,6 +352,7 @@ TEST(lost_derivatives_are_refused)
 }
 
 LAGRANGIAN(first_order, 2) { return q[0]*v[1] - q[0]*q[0] - q[1]*q[1]; }
+LAGRANGIAN(first_order_alone, 2) { return q[0]*v[1] - q[1]*v[0]; }
 LAGRANGIAN(massless, 2) { return v[0]*v[0]/2 + v[1] - q[0]*q[0] - q[1]*q[1]; }
 LAGRANGIAN(one_direction, 2) { return (v[0] + v[1])*(v[0] + v[1])/2 - q[0]*q[0] - q[1]*q[1]; }
 LAGRANGIAN(not_there, 2) { return (v[0]*v[0] + v[1]*v[1])/2 + log(q[0] - 5); }
@@ -362,6 +363,7 @@ LAGRANGIAN(large, LAGRANGIAN_MOST + 1) { return v[0]*v[0]; }
 TEST(refusals_say_why)
 {
     assert_refused(&first_order, some_q, some_v, "L is linear in v: its equations are of first order; give H(t,q,p) by HAMILTONIAN");
+    assert_refused(&first_order_alone, (real[]){ 1, 1 }, zeros, "L is linear in v: its equations are of first order");
     assert_refused(&massless, some_q, some_v, "L has no kinetic energy in q[1]");
     assert_refused(&one_direction, some_q, some_v, "L has no kinetic energy in some direction");
     assert_refused(&not_there, some_q, some_v, "L is not finite at the start");

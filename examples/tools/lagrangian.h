@@ -1051,7 +1051,8 @@ static inline gvi_real lagrangian_off(const lagrangian *L, const struct lagrangi
     *size = 0;
     if (test->what == LAGRANGIAN__A) return lagrangian_momentum(L, t, q, NULL, 1, i);
     if (test->what == LAGRANGIAN__REST_OF_P) return lagrangian_rest_of_p(L, test, t, q, v, size);
-    const gvi_real M = lagrangian_entry(L, t, q, i, j), was = L->M[i*n + j];
+    const gvi_real a = lagrangian_momentum(L, t, q, NULL, 1, i), was = L->M[i*n + j],     // where there is no mass, a is all
+                   M = lagrangian_entry(L, t, q, i, j) - (gvi_real)((lagrangian_real)a/LAGRANGIAN__HUGE);
     *size = lagrangian_size(M) + lagrangian_size(was)
           + 4*GVI_SQRT(lagrangian_size(L->M[i*n + i]))*GVI_SQRT(lagrangian_size(L->M[j*n + j]));
     return M - was;
