@@ -539,12 +539,21 @@ typedef struct gvi_points {
     gvi_real       *jacobian;  /* [rows*n][stride] write dg_a/dq_i, row a*n + i: what is not 0 */
     gvi_real       *rate;      /* [rows][stride] write dg_a/dt where g reads t; it is 0 before;
                                   nonholonomic: A to jacobian, a to rate, g stays as it is */
+    const char    **why;       /* for gvi_fail; may be NULL                    */
 } gvi_points;
 
 /* All points at once.  Returns 0, or anything else if it cannot be evaluated
    here.  A step that is not explicit is then tried without its predictor, nearer to its
    start, and by Newton's method; if all fail, it ends with GVI_E_CALLBACK.    */
 typedef int gvi_points_fn(const gvi_points *x, void *user);
+
+/* A callback that knows why it cannot be evaluated says so by `return gvi_fail(x, "beyond the
+   road's end")`: gvi_why gives this sentence, which has to stay where it is.  Returns 1.     */
+static inline int gvi_fail(const gvi_points *x, const char *why)
+{
+    if (x->why) *x->why = why;
+    return 1;
+}
 
 /* A gvi_points_fn written for one point.  GVI_POINTS(name, n, ...) means `static int name`;
    n is a constant.  The list names the arrays that the body uses (t and q are always there): v, p,
@@ -648,7 +657,7 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
     GVI__INDEPENDENT for (; k < to; ++k) {
         gvi_points y = { n, 1, 1, x->t + k, a, a + n, a + 2*n, a + 3*n, a + 4*n,
                          single ? a + 5*n : NULL,
-                         GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5), g, G, dg };
+                         GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5), g, G, dg, x->why };
         GVI__MOVE(any, n, a[i], x->q[i*s + k]);
         GVI__MOVE(GVI__USES_v, n, a[n + i], x->v[i*s + k]);
         GVI__MOVE(GVI__USES_p, n, a[2*n + i], x->p[i*s + k]);
@@ -825,8 +834,8 @@ typedef struct gvi_fault {             /* where the last failure came from      
     int coordinate;                    /* or GVI_FAULT_NONE                     */
     int point;                         /* quadrature point, or GVI_FAULT_NONE   */
     const char *argument;              /* GVI_E_ARGUMENT, GVI_E_CALLBACK of a GVI_POINTS that
-                                          lists too much, and where a call knows
-                                          more than its status: a sentence, else NULL */
+                                          lists too much or by gvi_fail, and where a call
+                                          knows more than its status: a sentence, else NULL */
 } gvi_fault;
 
 /* Work of steps and queries since gvi_init.  The caller may set any of it to 0. */
@@ -1039,6 +1048,7 @@ struct gvi__private {
     int                 stepped;      /* 2: by a clock                                         */
     int                 kept;         /* valid steps in last and older, equally long           */
     int                 has_velocity; /* last.V holds                                          */
+    const char         *why;          /* of gvi_fail, until it is reported                     */
 #ifndef GVI_NO_RULES
     struct gvi__rules      rules;
 #endif
@@ -2359,6 +2369,8 @@ static gvi_status gvi__refuse_call(gvi_stepper *st, const char *argument)
 GVI__COLD gvi_status gvi__report_callback(gvi_stepper *st, int failed, int effect)
 {
     gvi__report_effect(st, GVI_E_CALLBACK, effect);
+    st->fault.argument = st->in.why;
+    st->in.why = NULL;
     if (failed == GVI__MISSING)
         st->fault.argument = "GVI_POINTS lists what this kind does not have, as v: is .kind set?";
     if (failed == GVI__OTHER_N)
@@ -2393,16 +2405,16 @@ static unsigned gvi__of_kind(const struct gvi__private *in, gvi_kind kind)
 }
 
 // `count` points at q, to which f and dldv are added; v, value and the like are set by the caller
-static gvi_points gvi__points_at(const gvi_stepper *st, int count, int R, const gvi_real *t,
+static gvi_points gvi__points_at(gvi_stepper *st, int count, int R, const gvi_real *t,
                                  const gvi_real *q, gvi_real *f, gvi_real *dldv)
 {
-    const gvi_points at = { st->n, count, R,    t,    q,    NULL, NULL, f,
-                           dldv,  NULL,  NULL, NULL, NULL, NULL, NULL };
+    const gvi_points at = { st->n, count, R,    t,    q,    NULL, NULL,        f,
+                           dldv,  NULL,  NULL, NULL, NULL, NULL, NULL, &st->in.why };
     return at;
 }
 
 // one point, f and dldv in scratch
-static gvi_points gvi__one_point(const gvi_stepper *st, const gvi_real *t, const gvi_real *q)
+static gvi_points gvi__one_point(gvi_stepper *st, const gvi_real *t, const gvi_real *q)
 {
     gvi_real *f = st->in.point + 4*st->n;
     return gvi__points_at(st, 1, 1, t, q, f, f + st->n);
