@@ -975,10 +975,10 @@ struct gvi__rolling {                 /* rows of GVI_NONHOLONOMIC, of m in all  
 struct gvi__dial {
     gvi_real *high;                   /* [r][6] sources to the highest modes                   */
     int       top;                    /* the highest of them: K of gvi__resolution             */
-    gvi_real  reach, loss;            /* rungs: longest step allowed last, and by how much less */
+    gvi_real  reach;                  /* rung up to which the last measured step would do      */
     gvi_real  barrier;                /* rung of the last length that failed                   */
     int       wait, again;            /* steps below that; failures near it, one after another */
-    int       shorter, put_off;       /* lengths to try before Newton's method; is it put off? */
+    int       put_off;                /* shorter lengths come before Newton's method           */
 };
 #endif
 
@@ -1703,18 +1703,17 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__WRONG 512                     // of an entry of G, what it is off times this: wrong
 
 // the dial, in rungs, four an octave
-#define GVI__BAND 4                        // room at which h stays; and the most that it grows
-#define GVI__MARGIN ((gvi_real)0.5)        // of it, kept back
-#define GVI__DOUBT ((gvi_real)0.5)         // rungs below 0: by a loss that is the first
-#define GVI__SHY 2                         // rungs of room kept back by a step that grows
+#define GVI__BAND 3                        // room at which h stays
+#define GVI__GROWS 4                       // the most that it grows
+#define GVI__MARGIN 1                      // of room, kept back
+#define GVI__SHY 2                         // the same by a step that grows
 #define GVI__MANY (4 + GVI__DIG/4)         // iterations from which on a longer step does not pay
 #define GVI__WAIT 4                        // steps until a length that failed is tried again
-#define GVI__SHORTER 3                     // lengths tried before Newton's method, 3 rungs apart
+#define GVI__SHORTER 16                    // below what the resolution allows: Newton's method
 #define GVI__STEADY ((gvi_real)0.64)       // of a fall of modes, squared, that one pair alone shows
-#define GVI__CANCELS 16                    // s^2 eps: rounding of forces that cancel
 #define GVI__FALL 8                        // the most that it shrinks, and after a failure
 #define GVI__RESTS 4096                    // times slower than the fastest: judged with it
-#define GVI__PULLED 256                    // roundings of g, or of forces of constraint
+#define GVI__PULLED 256                    // roundings of g, of forces that cancel or constrain
 #define GVI__DEEP (GVI__DIG/2)             // degree whose modes reach rounding
 
 /* ---------------------------------------------------------------- BLOCKS */
@@ -8359,10 +8358,36 @@ static gvi_real gvi__power(gvi_real x, int k)
     return y;
 }
 
-/* What a coordinate lacks of its velocity, of which y are the modes K, K - 1 .., `ends` at both
+/* Are the highest modes of coordinate i nothing but rounding?  Of the terms of its row: P and A,
+   where V is M^-1 (P - A).  Or of t and q at its points, which is as large in all modes.  all: the
+   size of the velocity, or in positions of p.                                                 */
+static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real low, gvi_real all)
+{
+    const struct gvi__private *in = &st->in;
+    const int forces = in->stages == 1;
+    const gvi_real *row = (forces ? in->work.F : in->work.V) + i*in->R;
+    const gvi_real h = GVI_ABS(in->sized.h), M = gvi__place_inertia(st, i),
+                   p = GVI_ABS(in->state.p[i]), dp = GVI_ABS(in->step.p[i]),
+                   first = row[0], last = row[st->r - 1];
+    gvi_real terms = GVI_ABS(first) + GVI_ABS(last), change = GVI_ABS(last - first),
+             apart = GVI_ABS(in->state.q[i])/all;
+    if (forces) {
+        terms *= h;
+        change *= h;
+        apart *= M;
+    } else {
+        terms += (2*p + dp)/M;
+        change += dp/M;
+    }
+
+    apart = (GVI_ABS(st->t) + apart)/h;
+    return high <= 4*GVI__EPS*terms || (low <= 4*high && high <= 4*GVI__EPS*change*apart);
+}
+
+/* What coordinate i lacks of its velocity, of which y are the modes K, K - 1 .., `ends` at both
    ends and `turn` from end to end.  all: its size.                                            */
-static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real ends, gvi_real turn,
-                            gvi_real *all)
+static gvi_real gvi__missed(const gvi_stepper *st, int i, const gvi_real *y, gvi_real ends,
+                            gvi_real turn, gvi_real *all)
 {
     const int top = st->in.dial.top, e = 2*st->s - top,
               stiff = st->formulation == GVI_NEWTON && st->in.chosen != GVI_NEWTON
@@ -8376,9 +8401,8 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
         high = y[0];
         if (one > 0) high += one*(one/(top == 3 ? low : *all))/4;
     }
-    // rounding, a force as simple as the curve: next to nothing, whatever h
-    if (high <= 4*GVI__EPS*(st->in.stages == 1 ? turn + low : *all))
-        return high*GVI__EPS*GVI__EPS;
+    // next to nothing: a force as simple as the curve, and no shorter step shows more of it
+    if (!(high > 0) || gvi__modes_end(st, i, high, low, *all)) return high*GVI__EPS*GVI__EPS;
     if (stiff) return high;
 
     if (low > high) fall = high/low;
@@ -8411,18 +8435,17 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
    error: high.  (With constraints it takes over for other reasons.)  Below K = 4 single modes
    count, below 6 two pairs.  In positions the modes are those of M v, from the forces.  Where
    motion is far below max |v| + max |q|/h, each times sqrt(M_ii), and below max |v| + |q_i|/h, so
-   that neither a light body nor one near the origin counts as at rest, an error of some s^2 eps of
-   the smaller of these is rounding, and relative to it.  Under constraints rounding of g over h is
-   in every velocity, and is all there is of one that starts from rest: no error of h.         */
+   that neither a light body nor one near the origin counts as at rest, some eps of the smaller of
+   these are rounding of forces that cancel.  Under constraints rounding of g over h is in every
+   velocity, and is all there is of one that starts from rest: no error of h.                  */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
-    const int s = st->s, R = in->R, top = in->dial.top, forces = in->stages == 1,
+    const int R = in->R, top = in->dial.top, forces = in->stages == 1,
               constrained = gvi__constrained(st),
               pulled = forces & constrained ? top < 6 ? top : 6 : 0;
     const gvi_real *row = forces ? in->work.F : in->work.V;
-    const gvi_real h = GVI_ABS(in->sized.h), unit = forces ? h : 1,
-                   rounding = (gvi_real)(s*s)*GVI__EPS;
+    const gvi_real h = GVI_ABS(in->sized.h), unit = forces ? h : 1;
     gvi_real *missed = in->answer, *size = missed + st->n, *mass = size + st->n;
     gvi_real fastest = 0, farthest = 0, v = 0, worst = 0;
     for (int i = 0; i < st->n; ++i, row += R) {
@@ -8439,8 +8462,8 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
         }
         mass[i] = GVI_SQRT(gvi__place_inertia(st, i));
         const gvi_real scale = forces ? 1/mass[i] : mass[i];
-        missed[i] = scale*gvi__missed(st, y, GVI_ABS(start) + GVI_ABS(end), GVI_ABS(end - start),
-                                      size + i);
+        missed[i] = scale*gvi__missed(st, i, y, GVI_ABS(start) + GVI_ABS(end),
+                                      GVI_ABS(end - start), size + i);
         size[i] *= scale;                         // p over M
         fastest = gvi__larger(size[i], fastest);
         farthest = gvi__larger(GVI_ABS(in->state.q[i])*mass[i], farthest);
@@ -8454,11 +8477,11 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
                        around = gvi__smaller(own, whole);
         const int rests = size[i] < around/GVI__RESTS;
 
-        // what rounding of g, or of forces of constraint, makes of it: less the longer a step is
-        gvi_real noise = shift ? mass[i]*shift[i]/h : 0;
-        if (shift && (forces || rests)) noise = gvi__larger(GVI__EPS*whole, noise);
-        if (missed[i] <= GVI__PULLED*noise) continue;
-        if (rests && missed[i] <= GVI__CANCELS*rounding*around) size[i] = around;
+        // what rounding of g makes of it, or of forces that cancel, and those of constraint anywhere
+        gvi_real rounding = shift ? mass[i]*shift[i]/h : 0;
+        if (rests || (shift && forces))
+            rounding = gvi__larger(GVI__EPS*(shift ? whole : around), rounding);
+        if (missed[i] <= GVI__PULLED*rounding) missed[i] *= GVI__EPS*GVI__EPS;
         worst = gvi__larger(missed[i]/size[i], worst);
     }
     return worst;
@@ -8491,9 +8514,8 @@ static gvi_real gvi__length(gvi_real k)
 }
 
 /* How many rungs up, after a step that succeeded.  `room`: up to where the resolution, of order
-   2s - 1 in h, reaches its limit, less a margin.  What was lost of it since the last step will be
-   lost again; a first loss may be chance, and shrinks h by little.  From 0 to 4 rungs h stays as
-   it is, and above where the step before left less.  Work over time is iterations/h: from
+   2s - 1 in h, reaches its limit, less a margin.  What was lost of it since the step before will be
+   lost again.  From 0 to GVI__BAND rungs h stays as it is.  Work over time is iterations/h: from
    GVI__MANY of them on h does not grow, from 5/3 of that on it shrinks a little.              */
 static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 {
@@ -8502,22 +8524,17 @@ static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
     const int many = st->in.stages == 2 ? GVI__MANY*3/2 : GVI__MANY,
               newton = st->formulation == GVI_NEWTON;
     gvi_real left = room, up = 0;
-    int lasts = 1;
 
-    if (room < 2*GVI__BAND) {
-        const gvi_real loss = dial->reach - (at + room);
-        lasts = dial->reach - at > GVI__BAND;
-        if (loss > 0) left -= loss;
-        if (room > 0 && dial->loss <= 0) left = gvi__larger(left, -GVI__DOUBT);
-        dial->loss = loss;
+    if (room < 2*GVI__GROWS) {
+        left -= gvi__larger(dial->reach - (at + room), 0);
         dial->reach = at + room;
     }
-    if (lasts && left > GVI__BAND) up = gvi__smaller(left - GVI__SHY, GVI__BAND);
-    if (left < 0) up = gvi__larger(left - 1, -GVI__FALL);
 
-    dial->shorter = newton ? 0 : GVI__SHORTER;
+    if (left > GVI__BAND) up = gvi__smaller(left - GVI__SHY, GVI__GROWS);
+    if (left < 0) up = gvi__larger(left - 1, -GVI__FALL);
     if (!newton && st->iterations >= many) up = gvi__smaller(up, 0);
     if (!newton && st->iterations >= many*5/3) up = gvi__smaller(up, -1);
+
     dial->wait -= dial->wait > 0;
     if (dial->wait > 0 && up > 0)
         up = gvi__larger(gvi__smaller(up, dial->barrier - 1 - at), 0);
@@ -8534,10 +8551,9 @@ static gvi_real gvi__rungs_down(gvi_stepper *st, gvi_status status, gvi_real at,
     dial->wait = GVI__WAIT << dial->again;
     dial->barrier = at;
     if (status == GVI_E_RESOLUTION) return gvi__larger(gvi__smaller(room, 0) - 1, -GVI__FALL);
-    if (dial->shorter == 0) return -GVI__FALL;
 
-    dial->shorter -= 1;
-    return -3;
+    dial->reach = gvi__larger(dial->reach, at);   // the resolution may have allowed it
+    return dial->put_off ? -3 : -GVI__FALL;
 }
 
 // st.next after a step of length h
@@ -8555,21 +8571,30 @@ static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
 }
 
 /* A first length: 1/16 of the time in which the forces would make the kinetic energy that there is;
-   1/1024 of the way where that is less, or from rest.                                         */
+   1/1024 of the way where that is less, or from rest.  Both by what is the same in every gauge:
+   v.M v, and how fast v changes with p as the forces drive that.                              */
 GVI__COLD gvi_real gvi__first_length(gvi_stepper *st, gvi_real left)
 {
-    gvi_real *v = st->in.answer, *a = v + st->n;
+    const int n = st->n, inertia = st->in.desc.mass.kind != GVI_MASS_NONE;
+    gvi_real *v = st->in.answer, *later = v + n, *p = later + n;
+    const gvi_real longest = left/1024;
     gvi_points at = gvi__one_point(st, &st->t, st->q);
+
     gvi__velocity_guess(st, v);
     gvi_status status = gvi__velocity(st, st->t, st->q, st->p, v);
     at.v = v;
+    if (status == GVI_OK) status = gvi__evaluate(st, &at, ~0u, 1);               // M v
+    const gvi_real moving = GVI_ABS(gvi__dot(n, inertia ? at.dldv : st->p, v));
+
     if (status == GVI_OK) status = gvi__evaluate(st, &at, 0, 1);
-    gvi__copy((size_t)st->n, at.f, a + st->n);
-    gvi__copy((size_t)st->n, v, a);
-    if (status == GVI_OK) status = gvi__velocity(st, st->t, st->q, a + st->n, a);
-    const gvi_real moving = GVI_ABS(gvi__dot(st->n, st->p, v)),
-                   pushing = GVI_ABS(gvi__dot(st->n, a + st->n, a)),
-                   time = GVI_SQRT(moving/pushing)/16, longest = left/1024;
+    for (int i = 0; i < n; ++i) {
+        later[i] = v[i];
+        p[i] = st->p[i] + longest*at.f[i];
+    }
+    if (status == GVI_OK) status = gvi__velocity(st, st->t, st->q, p, later);
+    for (int i = 0; i < n; ++i) later[i] = (later[i] - v[i])/longest;
+    const gvi_real pushing = GVI_ABS(gvi__dot(n, at.f, later)),
+                   time = GVI_SQRT(moving/pushing)/16;
     return status == GVI_OK && time > 0 && time < longest ? time : longest;
 }
 
@@ -8589,10 +8614,10 @@ GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
         gvi_real h = st->next;
         if (!clock && left < h*2) h = left/2;
         if (!clock && left < st->next*(gvi_real)1.0625) h = left;
-        st->in.dial.put_off = st->in.dial.shorter > 0;
+        st->in.dial.put_off = st->in.dial.reach - gvi__rungs(h) < GVI__SHORTER;
         const gvi_status status = gvi_step(st, way > 0 ? h : -h);
-        st->in.dial.put_off = 0;
         gvi__set_next(st, status, h);
+        st->in.dial.put_off = 0;
         if (status == GVI_OK) {
             if (!clock && h >= left) {
                 st->t_low += st->t - t_end;
@@ -9602,9 +9627,7 @@ GVI__COLD void gvi__place_started(gvi_stepper *st)
 #endif
 #ifndef GVI_NO_DIAL
     st->in.dial.reach = st->in.dial.barrier = -GVI__MAX;
-    st->in.dial.loss = 0;
     st->in.dial.wait = st->in.dial.again = 0;
-    st->in.dial.shorter = GVI__SHORTER;
 #endif
 }
 
