@@ -1703,10 +1703,9 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__WRONG 512                     // of an entry of G, what it is off times this: wrong
 
 // the dial, in rungs, four an octave
-#define GVI__BAND 3                        // room at which h stays
+#define GVI__BAND 2                        // room at which h stays, and that growth leaves
 #define GVI__GROWS 4                       // the most that it grows
-#define GVI__MARGIN 1                      // of room, kept back
-#define GVI__SHY 2                         // the same by a step that grows
+#define GVI__MARGIN ((gvi_real)0.5)        // of room, kept back
 #define GVI__MANY (4 + GVI__DIG/4)         // iterations from which on a longer step does not pay
 #define GVI__WAIT 4                        // steps until a length that failed is tried again
 #define GVI__SHORTER 16                    // below what the resolution allows: Newton's method
@@ -8514,8 +8513,8 @@ static gvi_real gvi__length(gvi_real k)
 }
 
 /* How many rungs up, after a step that succeeded.  `room`: up to where the resolution, of order
-   2s - 1 in h, reaches its limit, less a margin.  What was lost of it since the step before will be
-   lost again.  From 0 to GVI__BAND rungs h stays as it is.  Work over time is iterations/h: from
+   2s - 1 in h, reaches its limit, less a margin; no more than h may take at once.  What was lost of
+   it since the step before will be lost again.  From 0 to GVI__BAND rungs h stays as it is.  Work over time is iterations/h: from
    GVI__MANY of them on h does not grow, from 5/3 of that on it shrinks a little.              */
 static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 {
@@ -8523,14 +8522,11 @@ static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
     // by velocities the iteration contracts with h, not h^2
     const int many = st->in.stages == 2 ? GVI__MANY*3/2 : GVI__MANY,
               newton = st->formulation == GVI_NEWTON;
-    gvi_real left = room, up = 0;
+    const gvi_real seen = gvi__smaller(room, GVI__GROWS + GVI__BAND),
+                   left = seen - gvi__larger(dial->reach - (at + seen), 0);
+    gvi_real up = gvi__larger(left - GVI__BAND, 0);
 
-    if (room < 2*GVI__GROWS) {
-        left -= gvi__larger(dial->reach - (at + room), 0);
-        dial->reach = at + room;
-    }
-
-    if (left > GVI__BAND) up = gvi__smaller(left - GVI__SHY, GVI__GROWS);
+    dial->reach = at + seen;
     if (left < 0) up = gvi__larger(left - 1, -GVI__FALL);
     if (!newton && st->iterations >= many) up = gvi__smaller(up, 0);
     if (!newton && st->iterations >= many*5/3) up = gvi__smaller(up, -1);
