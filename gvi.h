@@ -80,7 +80,7 @@
      NUMBERS              lanes, sums, double-word arithmetic
      TOLERANCES           every constant of judgement
      BLOCKS               LU and L D L'; Gauss and Lobatto; interpolation
-     PLACES               where the chapters of PART II plug in
+     PARTS                which chapters of PART II are at work, and where they plug in
      SCENE                status and fault; effects at points; mass
      TABLES               what depends on rule, degree and h alone; predictor
      SET-UP               checks, choice of a formulation, memory
@@ -774,8 +774,8 @@ typedef enum gvi_formulation {
                              With m constraints, read n + m for n               */
     GVI_EXPLICIT   = 1,
     GVI_POSITIONS  = 2,
-    GVI_VELOCITIES = 3,
-    GVI_MOMENTA    = 4,
+    GVI_VELOCITIES = 3,   /* forces that read v; Lagrangian terms take momenta or Newton */
+    GVI_MOMENTA    = 4,   /* r = s                                                    */
     GVI_NEWTON     = 5    /* last: GVI_AUTO takes the first that covers the scene */
 } gvi_formulation;
 
@@ -1368,7 +1368,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 /* ========================================================================== PART I: THE INTEGRATOR
 
    For constant mass and effects that read t, q and v.  What a scene uses beyond that are chapters
-   of PART II, which plug in at the PLACES.                                                    */
+   of PART II, which plug in at PLACES: see PARTS.                                             */
 
 /* NAMES, their usual meaning in what follows:
 
@@ -2193,24 +2193,14 @@ GVI_DEF gvi_real gvi_interpolate_derivative(int n, const gvi_real *x, const gvi_
     return value;
 }
 
-/* ---------------------------------------------------------------- PLACES
+/* ----------------------------------------------------------------- PARTS
 
-   Where the chapters of PART II plug in.  PART I calls these functions, the switchboard at the end
-   of the file asks the chapters.  Within a step they stand behind gvi__parts(in), a bit for each
-   chapter at work in this scene: one that is not compiled leaves nothing, and one that is compiled
-   but not used costs a test.                                                                  */
-
-// what an iteration and a step start from
-typedef struct gvi__origin {
-    gvi_real t, t_low;
-    const gvi_real *q, *q_low, *p, *p_low;
-} gvi__origin;
-
-// what is solved: a step, or for a query a part of the last one, from its start or its end
-enum { GVI__STEP, GVI__FROM_START, GVI__FROM_END };
-
-/* The caller's memory: a base, or NULL to count only, and the numbers handed out so far.     */
-typedef struct gvi__arena { gvi_real *base; size_t used; } gvi__arena;
+   The chapters of PART II plug in at PLACES: functions gvi__place_..., which PART I calls, each
+   declared in the section that calls it.  Where one chapter alone acts at a place, it defines the
+   function; else the SWITCHBOARD at the end of the file does, and says in which order they act.
+   Newton's method calls constraints by functions of its own, gvi__held_...  In a step the places
+   stand behind gvi__parts(in), a bit for each chapter at work in this scene: a chapter that is not
+   compiled leaves nothing, and one that is compiled but not used costs a test.                */
 
 enum {
     GVI__IN_RULES = 1,                // Gamma is full
@@ -2256,116 +2246,14 @@ static int gvi__iterates(const struct gvi__private *in) { return GVI__ITERATION 
 // a constant 0 where no chapter is compiled
 GVI__BODY unsigned gvi__parts(const struct gvi__private *in) { return GVI__CHAPTERS & in->parts; }
 
-struct gvi__progress;
+// what an iteration and a step start from
+typedef struct gvi__origin {
+    gvi_real t, t_low;
+    const gvi_real *q, *q_low, *p, *p_low;
+} gvi__origin;
 
-/* Set-up, in this order: an effect or a mass that PART I does not know, 1 if a chapter does, *wrong
-   what is missing; a rule that is not Gauss's or Lobatto's; may formulation f solve the scene?
-   What else may; or which effect none can.  Memory; nodes, 1 if they are made; what the modes need
-   before the tables, and behind them.                                                         */
-static int gvi__place_effect(struct gvi__private *in, int e, const char **wrong);
-static int gvi__place_mass(struct gvi__private *in, const char **wrong);
-static gvi_status gvi__place_rule(struct gvi__private *in, int *order, gvi_fault *fault);
-static int gvi__place_covers(struct gvi__private *in, gvi_formulation f);
-static gvi_status gvi__place_chosen(struct gvi__private *in, int order, gvi_fault *fault);
-static void gvi__place_layout(struct gvi__private *in, gvi__arena *a);
-static int gvi__place_nodes(gvi_stepper *st);
-static gvi_status gvi__place_tables(gvi_stepper *st);
-
-/* Start, from q and p in in->step with velocity v, before they are taken.  A switch of effects from
-   `was`, which it restores if it fails.                                                       */
-static gvi_status gvi__place_start(gvi_stepper *st, gvi_real t, gvi_real *v);
-static void gvi__place_started(gvi_stepper *st);
-static gvi_status gvi__place_switch(gvi_stepper *st, unsigned was);
-
-// mass: v from p, v a guess on entry; M_ii, for the noise of the verdict
-static gvi_status gvi__place_velocity(gvi_stepper *st, gvi_real t, const gvi_real *q,
-                                      const gvi_real *p, gvi_real *v);
-static gvi_real gvi__place_inertia(const gvi_stepper *st, int i);
-
-/* Solve: in place of the fixed point, 1 if *status is the result; or where that has failed.   */
-static int gvi__place_solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query,
-                            gvi_status *status);
-static gvi_status gvi__place_turn(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query,
-                                  gvi_status status);
-
-/* In the fixed point: 1) stages; 2) sources; 3) before new rows; 4) F in place of the effects; 5) a
-   verdict or GVI__GO_ON, and how long no new least is chance.                                 */
-static void gvi__place_stages(gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                              struct gvi__stage *stage);
-static gvi_status gvi__place_predict(gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                                     int extrapolate);
-static gvi_status gvi__place_evaluate(gvi_stepper *st, const gvi__origin *from, gvi_points *at);
-static int gvi__place_judge(gvi_stepper *st, const struct gvi__progress *p, gvi_real D,
-                            int *patience);
-
-// 6) increments, 1 if dq is made; 7) is the step accepted?  Commit; it failed
-static int gvi__place_increments(gvi_stepper *st, const gvi__origin *from);
-static gvi_status gvi__place_accept(gvi_stepper *st);
-static void gvi__place_commit(gvi_stepper *st, gvi_real h);
-static void gvi__place_failed(gvi_stepper *st);
-
-/* Places of one chapter, which has them itself: y := Gamma^-1 y, 1 if Gamma is full; F and P of
-   M(q); V between the rows; steps that are made in a row, 0: none; the last step's curve, 1 if it
-   is made here, and its v; tables of the predictor; behind the rows and behind the last F; a move
-   that is rounding; the end of a step or partial step, by any solver, and once more?          */
-#ifndef GVI_NO_RULES
-static gvi_status gvi__place_modes(gvi_stepper *st);
-static int gvi__place_gamma(const gvi_stepper *st, gvi_real *y);
-#else
-#define gvi__place_modes(st) GVI_OK
-#define gvi__place_gamma(st, y) 0
-#endif
-#ifndef GVI_NO_LAGRANGIAN
-static void gvi__place_rotate(gvi_stepper *st);
-#else
-#define gvi__place_rotate(st) ((void)0)
-#endif
-#ifndef GVI_NO_MOMENTA
-static gvi_status gvi__place_kinetic(gvi_stepper *st, gvi_points *at);
-static gvi_real gvi__place_between(gvi_stepper *st);
-#else
-#define gvi__place_kinetic(st, at) GVI_OK
-#define gvi__place_between(st) (gvi__count(&(st)->counters.velocities, (st)->r), (gvi_real)0)
-#endif
-#ifndef GVI_NO_KICKS
-static int gvi__place_steps(gvi_stepper *st, gvi_real h, int count);
-static int gvi__place_line(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v);
-#else
-#define gvi__place_steps(st, h, count) 0
-#define gvi__place_line(st, tau, q, v) 0
-#endif
-#ifndef GVI_NO_CLOCK                              // which changes what others do, too
-static gvi_status gvi__place_curve(gvi_stepper *st, const gvi_real *q, gvi_real *v);
-static int gvi__clock_is_on(const gvi_stepper *st);
-static void gvi__clock_velocities(const gvi_stepper *st);
-#else
-#define gvi__place_curve(st, q, v) GVI_OK
-#define gvi__clock_is_on(st) 0
-#define gvi__clock_velocities(st) ((void)0)
-#endif
-#ifndef GVI_NO_CONSTRAINTS
-static void gvi__place_predictor(gvi_stepper *st, gvi_real alpha, gvi_real beta);
-static void gvi__place_before_rows(gvi_stepper *st, const struct gvi__stage *stage);
-static void gvi__place_behind_rows(gvi_stepper *st, const struct gvi__stage *stage, gvi_real sum);
-static void gvi__place_last(gvi_stepper *st, const gvi__origin *from,
-                            const struct gvi__stage *stage);
-static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m);
-static gvi_status gvi__place_finish(gvi_stepper *st, const gvi__origin *from);
-static gvi_real gvi__place_bow(const gvi_stepper *st, int i);
-static int gvi__place_again(gvi_stepper *st);
-static void gvi__place_held(const gvi_stepper *st, gvi_real tau, const gvi_real *phi,
-                            const gvi_real *Phi, gvi_real *q, gvi_real *v);
-#else
-#define gvi__place_predictor(st, alpha, beta) ((void)(alpha))
-#define gvi__place_before_rows(st, stage) ((void)0)
-#define gvi__place_behind_rows(st, stage, sum) ((void)0)
-#define gvi__place_bow(st, i) 0
-#define gvi__place_last(st, from, stage) ((void)0)
-#define gvi__place_push(st, h, i, m) 0
-#define gvi__place_finish(st, from) GVI_OK
-#define gvi__place_again(st) 0
-#define gvi__place_held(st, tau, phi, Phi, q, v) ((void)0)
-#endif
+// what is solved: a step, or for a query a part of the last one, from its start or its end
+enum { GVI__STEP, GVI__FROM_START, GVI__FROM_END };
 
 #ifndef GVI_NO_EXPLAIN
 // a step or its points that came to NaN or Inf, or failed; callbacks at a first start
@@ -2384,7 +2272,26 @@ static gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, con
 #define GVI__LOOK(st, on) ((void)0)
 #endif
 
+// a clock changes what others do, too
+#ifndef GVI_NO_CLOCK
+static int gvi__clock_is_on(const gvi_stepper *st);
+static void gvi__clock_velocities(const gvi_stepper *st);
+#else
+#define gvi__clock_is_on(st) 0
+#define gvi__clock_velocities(st) ((void)0)
+#endif
+
 /* ----------------------------------------------------------------- SCENE */
+
+/* PLACES of the mass: v from p, v a guess on entry; M_ii, for amplitudes; F and P of M(q).     */
+static gvi_status gvi__place_velocity(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                      const gvi_real *p, gvi_real *v);
+static gvi_real gvi__place_inertia(const gvi_stepper *st, int i);
+#ifndef GVI_NO_MOMENTA
+static gvi_status gvi__place_kinetic(gvi_stepper *st, gvi_points *at);
+#else
+#define gvi__place_kinetic(st, at) GVI_OK
+#endif
 
 /* Status and fault of a call.  gvi__report_effect: an effect or the mass is at fault, but no
    one coordinate or point; gvi__report_status: none of them.                                  */
@@ -2694,6 +2601,15 @@ GVI__COLD gvi_status gvi__hamiltonian(gvi_stepper *st, gvi_real t, const gvi_rea
 
 /* ---------------------------------------------------------------- TABLES */
 
+/* PLACES of the modes: what they need before the tables; y := Gamma^-1 y, 1 if Gamma is full.  */
+#ifndef GVI_NO_RULES
+static gvi_status gvi__place_modes(gvi_stepper *st);
+static int gvi__place_gamma(const gvi_stepper *st, gvi_real *y);
+#else
+#define gvi__place_modes(st) GVI_OK
+#define gvi__place_gamma(st, y) 0
+#endif
+
 /* phi_k = P_k(x) and Phi_k = (P_(k-1) - P_(k+1))(x)/(2(2k+1)), P_(-1) = 1, at the nodes, x = 1
    - 2c, in double-word arithmetic: [k*R + node].  Then the nodes go to the grid of S.         */
 GVI__COLD void gvi__modes_of(const gvi_stepper *st, int count, gvi_real *c, const gvi_real *c_low,
@@ -2926,6 +2842,21 @@ static void gvi__lagrange(const gvi_stepper *st, gvi_real alpha, gvi_real beta, 
 }
 
 /* ---------------------------------------------------------------- SET-UP */
+
+/* The caller's memory: a base, or NULL to count only, and the numbers handed out so far.     */
+typedef struct gvi__arena { gvi_real *base; size_t used; } gvi__arena;
+
+/* PLACES of set-up, in this order: an effect or a mass that PART I does not know, 1 if a chapter
+   does, *wrong what is missing; a rule that is not Gauss's or Lobatto's; may formulation f solve
+   the scene?  What the chosen one needs; memory; nodes, 1 if they are made; tables.           */
+static int gvi__place_effect(struct gvi__private *in, int e, const char **wrong);
+static int gvi__place_mass(struct gvi__private *in, const char **wrong);
+static gvi_status gvi__place_rule(struct gvi__private *in, int *order, gvi_fault *fault);
+static int gvi__place_covers(struct gvi__private *in, gvi_formulation f);
+static gvi_status gvi__place_chosen(struct gvi__private *in, int order, gvi_fault *fault);
+static void gvi__place_layout(struct gvi__private *in, gvi__arena *a);
+static int gvi__place_nodes(gvi_stepper *st);
+static gvi_status gvi__place_tables(gvi_stepper *st);
 
 // in long: an int may have 16 bits
 static int gvi__within(long x, long most) { return x >= 0 && x <= most; }
@@ -3287,6 +3218,72 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 
    gvi__iterate is 1) to 5), gvi__fixed_point that from extrapolated values, then from plain ones,
    gvi__attempt 1) to 6) by the fixed point or another solver, and gvi_step all of it.         */
+
+/* PLACES of the fixed point: 1) stages; 2) sources, and tables of the predictor; 3) before, between
+   and behind the new rows, `between` adds a change; 4) F in place of the effects, and once it is
+   the last F; 5) a verdict or GVI__GO_ON, and how long no new least is chance; a move of coordinate
+   i that is rounding.                                                                          */
+struct gvi__progress;
+static void gvi__place_stages(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                              struct gvi__stage *stage);
+static gvi_status gvi__place_predict(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                     int extrapolate);
+static gvi_status gvi__place_evaluate(gvi_stepper *st, const gvi__origin *from, gvi_points *at);
+static int gvi__place_judge(gvi_stepper *st, const struct gvi__progress *p, gvi_real D,
+                            int *patience);
+#ifndef GVI_NO_MOMENTA
+static gvi_real gvi__place_between(gvi_stepper *st);
+#else
+#define gvi__place_between(st) (gvi__count(&(st)->counters.velocities, (st)->r), (gvi_real)0)
+#endif
+#ifndef GVI_NO_CONSTRAINTS
+static void gvi__place_predictor(gvi_stepper *st, gvi_real alpha, gvi_real beta);
+static void gvi__place_before_rows(gvi_stepper *st, const struct gvi__stage *stage);
+static void gvi__place_behind_rows(gvi_stepper *st, const struct gvi__stage *stage, gvi_real sum);
+static void gvi__place_last(gvi_stepper *st, const gvi__origin *from,
+                            const struct gvi__stage *stage);
+static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m);
+#else
+#define gvi__place_predictor(st, alpha, beta) ((void)(alpha))
+#define gvi__place_before_rows(st, stage) ((void)0)
+#define gvi__place_behind_rows(st, stage, sum) ((void)0)
+#define gvi__place_last(st, from, stage) ((void)0)
+#define gvi__place_push(st, h, i, m) 0
+#endif
+
+/* PLACES of the solvers: in place of the fixed point, 1 if *status is the result; where that has
+   failed; as many of `count` steps as one makes in a row, 0 if none does.                     */
+static int gvi__place_solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query,
+                            gvi_status *status);
+static gvi_status gvi__place_turn(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query,
+                                  gvi_status status);
+#ifndef GVI_NO_KICKS
+static int gvi__place_steps(gvi_stepper *st, gvi_real h, int count);
+#else
+#define gvi__place_steps(st, h, count) 0
+#endif
+
+/* PLACES of a step's end: 6) increments, 1 if dq is made; sum_j (1 - c_j) h b_j F_j and what else
+   bends coordinate i; the end of a step or partial step, by any solver; once more?  7) Is the step
+   accepted?  Commit; values of steps; it failed.                                              */
+static int gvi__place_increments(gvi_stepper *st, const gvi__origin *from);
+static gvi_status gvi__place_accept(gvi_stepper *st);
+static void gvi__place_commit(gvi_stepper *st, gvi_real h);
+static void gvi__place_failed(gvi_stepper *st);
+#ifndef GVI_NO_LAGRANGIAN
+static void gvi__place_rotate(gvi_stepper *st);
+#else
+#define gvi__place_rotate(st) ((void)0)
+#endif
+#ifndef GVI_NO_CONSTRAINTS
+static gvi_real gvi__place_bow(const gvi_stepper *st, int i);
+static gvi_status gvi__place_finish(gvi_stepper *st, const gvi__origin *from);
+static int gvi__place_again(gvi_stepper *st);
+#else
+#define gvi__place_bow(st, i) 0
+#define gvi__place_finish(st, from) GVI_OK
+#define gvi__place_again(st) 0
+#endif
 
 /* ---- 1) stages ---- */
 
@@ -4176,6 +4173,30 @@ GVI_DEF gvi_status gvi_steps(gvi_stepper *st, gvi_real h, int count)
 }
 
 /* ----------------------------------------------------------------- STATE */
+
+/* PLACES of a start: from q and p in in->step with velocity v, before they are taken; behind that;
+   a switch of effects from `was`, which it restores if it fails.                              */
+static gvi_status gvi__place_start(gvi_stepper *st, gvi_real t, gvi_real *v);
+static void gvi__place_started(gvi_stepper *st);
+static gvi_status gvi__place_switch(gvi_stepper *st, unsigned was);
+
+/* PLACES of the last step's curve: 1 if it is made here; what else bends it; its v.            */
+#ifndef GVI_NO_KICKS
+static int gvi__place_line(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v);
+#else
+#define gvi__place_line(st, tau, q, v) 0
+#endif
+#ifndef GVI_NO_CONSTRAINTS
+static void gvi__place_held(const gvi_stepper *st, gvi_real tau, const gvi_real *phi,
+                            const gvi_real *Phi, gvi_real *q, gvi_real *v);
+#else
+#define gvi__place_held(st, tau, phi, Phi, q, v) ((void)0)
+#endif
+#ifndef GVI_NO_CLOCK
+static gvi_status gvi__place_curve(gvi_stepper *st, const gvi_real *q, gvi_real *v);
+#else
+#define gvi__place_curve(st, q, v) GVI_OK
+#endif
 
 // from q, p in in->step and a velocity v, all of them seen to be good
 GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, gvi_real *v)
@@ -9317,7 +9338,9 @@ GVI__COLD const char *gvi__why_no_formulation(const gvi_stepper *st)
     if (in->chosen == GVI_NEWTON) return "iterations is given, and this takes Newton's method";
     if (kicks) return "kicks are for constant mass and effects that read only t and q";
     if (clock) return "a clock needs r = s, and a mass or mass.velocity";
-    if (in->desc.formulation != GVI_AUTO) 
+    if (in->desc.formulation == GVI_VELOCITIES && in->adds_p)
+        return "velocities take no Lagrangian terms: GVI_MOMENTA does where r = s, GVI_NEWTON else";
+    if (in->desc.formulation != GVI_AUTO)
         return "the pinned formulation does not cover this scene, or a macro leaves it out";
     return "what this scene needs is left out by a macro GVI_NO_...";
 }
@@ -9375,7 +9398,7 @@ GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st) { return (void)s
 
 /* ----------------------------------------------------------- SWITCHBOARD
 
-   What happens at each place, in which order: the only part that knows more than one chapter.
+   What happens at each place that several chapters share, in which order.
    GVI__CLOCK(what): done if the scene uses that chapter; GVI__CLOCK_ON, GVI__CONSTRAINTS_ON: if
    the clock, a constraint, is on.                                                             */
 
@@ -9648,6 +9671,7 @@ static gvi_status gvi__place_velocity(gvi_stepper *st, gvi_real t, const gvi_rea
                                       const gvi_real *p, gvi_real *v)
 {
     gvi_points at = gvi__one_point(st, &t, q);
+    (void)at;
     GVI__MASS(if (st->in.desc.mass.velocity) return gvi__momenta_velocity(st, &at, p, v))
     GVI__LAGRANGIAN(return gvi__legendre_newton(st, &at, p, v))
     GVI__MASS(return gvi__momenta_velocity(st, &at, p, v))

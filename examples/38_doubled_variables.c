@@ -6,8 +6,7 @@
 
    Where both start alike they stay alike, and each moves as L with the force f does (Galley 2013). Here a satellite
    with drag as usual, n = 2 and a force, and doubled, n = 4 with masses 1, 1, -1, -1 and a Lagrangian term: the
-   Lagrange-d'Alembert principle of the library is stationary action of the copies (to the last bit where the compiler
-   contracts no products).
+   Lagrange-d'Alembert principle of the library is stationary action of the copies, to rounding.
 
    It is never a minimum: what the first copy gains, the second loses. Half of the curve's interior directions lower
    the action, at any step length, while the curve of the undamped satellite is a minimum. The order needs none: the

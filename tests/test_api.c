@@ -125,13 +125,14 @@ static const scene scenes[] = {
     { GVI_POSITIONS,  GVI_MASS_UNIT,     POT,               3, 8, GVI_GAUSS,   8 },
     { GVI_POSITIONS,  GVI_MASS_DENSE,    POT,               2, 3, GVI_LOBATTO, 4 },
     { GVI_AUTO,       GVI_MASS_DIAGONAL, POT,               3, 4, GVI_GAUSS,   6 },
-    { GVI_VELOCITIES, GVI_MASS_DIAGONAL, POT | COUP,        3, 5, GVI_GAUSS,   5 },
+    { GVI_MOMENTA,    GVI_MASS_DIAGONAL, POT | COUP,        3, 5, GVI_GAUSS,   5 },
     { GVI_AUTO,       GVI_MASS_DENSE,    POT | COUP | DRAG, 2, 4, GVI_GAUSS,   4 },
     { GVI_MOMENTA,    GVI_MASS_POSITION, POT,               3, 4, GVI_GAUSS,   4 },
     { GVI_AUTO,       GVI_MASS_POSITION, POT | COUP | DRAG, 2, 3, GVI_LOBATTO, 3 },
     { GVI_NEWTON,     GVI_MASS_UNIT,     POT | DRAG,        2, 4, GVI_GAUSS,   4 },
     { GVI_AUTO,       GVI_MASS_POSITION, POT | COUP,        2, 3, GVI_GAUSS,   5 },
     { GVI_AUTO,       GVI_MASS_NONE,     POT | KIN,         2, 3, GVI_GAUSS,   3 },
+    { GVI_VELOCITIES, GVI_MASS_DIAGONAL, POT | DRAG,        3, 5, GVI_GAUSS,   5 },
 };
 
 enum { PAD = 64 };                                    /* reals on both sides */
@@ -279,7 +280,8 @@ TEST(the_scene_chooses_the_formulation)
         { { GVI_AUTO, GVI_MASS_UNIT,     POT,        2, 1, GVI_GAUSS,   1 }, GVI_POSITIONS },
         { { GVI_AUTO, GVI_MASS_DENSE,    POT,        2, 4, GVI_GAUSS,   6 }, GVI_POSITIONS },
         { { GVI_AUTO, GVI_MASS_UNIT,     POT | DRAG, 2, 1, GVI_LOBATTO, 2 }, GVI_VELOCITIES },
-        { { GVI_AUTO, GVI_MASS_DIAGONAL, POT | COUP, 2, 4, GVI_GAUSS,   4 }, GVI_VELOCITIES },
+        { { GVI_AUTO, GVI_MASS_DIAGONAL, POT | COUP, 2, 4, GVI_GAUSS,   4 }, GVI_MOMENTA },
+        { { GVI_AUTO, GVI_MASS_DIAGONAL, POT | COUP, 2, 4, GVI_GAUSS,   5 }, GVI_NEWTON },
         { { GVI_AUTO, GVI_MASS_POSITION, POT | DRAG, 2, 4, GVI_GAUSS,   4 }, GVI_MOMENTA },
         { { GVI_AUTO, GVI_MASS_POSITION, POT,        2, 4, GVI_GAUSS,   5 }, GVI_NEWTON },
         { { GVI_AUTO, GVI_MASS_NONE,     POT | KIN,  2, 4, GVI_GAUSS,   4 }, GVI_NEWTON },
@@ -629,7 +631,7 @@ static gvi_stepper start_heavy(int degree, int formulation, real v)
 TEST(short_steps_do_not_hide_velocities_that_diverge)
 {
     more_mass = 3;
-    for (int f = GVI_VELOCITIES; f <= GVI_NEWTON; ++f)
+    for (int f = GVI_MOMENTA; f <= GVI_NEWTON; ++f)
     for (real h = 1e-15; h < 2e-3; h *= 100) {
         gvi_stepper st = start_heavy(2, f, 1);
         const gvi_status got = gvi_step(&st, h);
@@ -642,7 +644,7 @@ TEST(short_steps_do_not_hide_velocities_that_diverge)
 TEST(short_steps_do_not_leave_velocities_half_way)
 {
     static const real share[] = { 1.25, 0.75, 1 };
-    for (int f = GVI_VELOCITIES; f <= GVI_NEWTON; ++f)            /* the increment, with its low word */
+    for (int f = GVI_MOMENTA; f <= GVI_NEWTON; ++f)            /* the increment, with its low word */
         for (int k = 0; k < 16; ++k) {
             const long double h = powl(10, -k - 2), moved = sinl(h) - 2*sinl(h/2)*sinl(h/2);
             more_mass = k % 2 ? 0.5 : -0.5;
@@ -651,7 +653,7 @@ TEST(short_steps_do_not_leave_velocities_half_way)
             assert_close(((long double)st.q[0] - 1 + st.q_low[0])/moved, 1, 16*EPS + powl(h, 4));
         }
     more_mass = 0.5;
-    for (int f = GVI_VELOCITIES; f <= GVI_NEWTON; ++f) {
+    for (int f = GVI_MOMENTA; f <= GVI_NEWTON; ++f) {
         gvi_stepper st = start_heavy(3, f, 0);
         for (int k = 0; k < 30000; ++k) assert_ok(gvi_step(&st, 1e-5*share[k % 3]));
         assert_close(st.q[0], cos(st.t), 4*EPS);

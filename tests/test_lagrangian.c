@@ -87,7 +87,7 @@ static const struct system {
     real                       q[2], v[2], h;
 } systems[] = {
     { &driven, driven_by_hand, LAGRANGIAN_POTENTIAL, GVI_POSITIONS, 1, { R(0.3), R(0.1) }, { 0, R(0.4) }, R(0.1) },
-    { &charge, charge_by_hand, LAGRANGIAN_LINEAR, GVI_VELOCITIES, 0, { R(0.8), R(0.4) }, { 0, R(0.5) }, R(0.2) },
+    { &charge, charge_by_hand, LAGRANGIAN_LINEAR, GVI_MOMENTA, 0, { R(0.8), R(0.4) }, { 0, R(0.5) }, R(0.2) },
     { &pendulum, pendulum_by_hand, LAGRANGIAN_MASS, GVI_MOMENTA, 0, { R(0.8), R(0.4) }, { 0, 0 }, R(0.05) },
     { &growing, growing_by_hand, LAGRANGIAN_MASS, GVI_MOMENTA, 1, { R(0.8), R(0.4) }, { 0, R(0.3) }, R(0.1) },
     { &fast, fast_by_hand, LAGRANGIAN_GENERAL, GVI_NEWTON, 0, { R(0.8), 0 }, { R(0.1), 1 }, R(0.1) },

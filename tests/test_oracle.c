@@ -304,21 +304,22 @@ enum { ONE_POINT = 1, WITH_HESSIAN = 2, WITH_VELOCITY = 4 };
 
 struct work { unsigned long long newton, points; int failed; };
 
-static int only_potentials(const struct problem *a)
+// effects up to this kind: GVI_POTENTIAL, GVI_FORCE, GVI_LAGRANGIAN
+static int only(const struct problem *a, gvi_kind kind)
 {
     for (int e = 0; e < a->count; ++e)
-        if (a->terms[e].kind != GVI_POTENTIAL) return 0;
+        if (a->terms[e].kind > kind) return 0;
     return 1;
 }
 
 /* Which formulations the library must accept; it must refuse the others. */
 static int covered(const struct problem *a, int options, const struct oracle_case *o, gvi_formulation how)
 {
-    int constant = a->mass.kind <= GVI_MASS_DENSE, simple = constant && only_potentials(a);
+    int constant = a->mass.kind <= GVI_MASS_DENSE, simple = constant && only(a, GVI_POTENTIAL);
     switch (how) {
     case GVI_EXPLICIT:   return simple && o->lobatto && o->s == 1 && o->r == 2;
     case GVI_POSITIONS:  return simple;
-    case GVI_VELOCITIES: return constant;
+    case GVI_VELOCITIES: return constant && only(a, GVI_FORCE);
     case GVI_MOMENTA:    return o->s == o->r && (a->mass.kind != GVI_MASS_NONE || options & WITH_VELOCITY);
     default:             return 1;
     }

@@ -135,7 +135,6 @@ static const struct { const char *name; gvi_formulation f; int with; } runs[] = 
     { "more points, masses",   GVI_POSITIONS,  DIAGONAL | MORE },
     { "drag",                  GVI_VELOCITIES, DRAG },
     { "drag, Lobatto",         GVI_VELOCITIES, DRAG | LOBATTO | COARSE },
-    { "a Lagrangian term",     GVI_VELOCITIES, DRAG | MAGNETIC },
     { "momenta",               GVI_MOMENTA,    DRAG },
     { "momenta, masses",       GVI_MOMENTA,    DRAG | DIAGONAL },
     { "momenta, a full mass",  GVI_MOMENTA,    DRAG | DENSE },

@@ -334,7 +334,8 @@ TEST(queries_do_not_change_later_steps_to_the_bit)
     static const struct { gvi_mass_kind mass; int count, s, r; gvi_formulation used; } cases[] = {
         { GVI_MASS_DENSE,    1,            1, 1, GVI_POSITIONS },
         { GVI_MASS_DENSE,    1,            5, 5, GVI_POSITIONS },
-        { GVI_MASS_DIAGONAL, FORCED,       4, 6, GVI_VELOCITIES },
+        { GVI_MASS_DIAGONAL, FORCED,       4, 4, GVI_MOMENTA },
+        { GVI_MASS_DIAGONAL, FORCED,       4, 6, GVI_NEWTON },
         { GVI_MASS_POSITION, CONSERVATIVE, 5, 5, GVI_MOMENTA },
         { GVI_MASS_POSITION, FORCED,       3, 4, GVI_NEWTON },
     };
@@ -343,6 +344,10 @@ TEST(queries_do_not_change_later_steps_to_the_bit)
         gvi_desc desc = scene(cases[c].mass, cases[c].count, cases[c].s, cases[c].r);
         expect_queries_to_change_nothing(&desc, 0.1L, cases[c].used);
     }
+    const gvi_effect forced[] = { effects[0], effects[2] };
+    gvi_desc damped = scene(GVI_MASS_DIAGONAL, 2, 4, 6);
+    damped.effects = forced;
+    expect_queries_to_change_nothing(&damped, 0.1L, GVI_VELOCITIES);
     gvi_desc verlet = scene(GVI_MASS_DENSE, 1, 1, 2);
     verlet.rule.kind = GVI_LOBATTO;
     expect_queries_to_change_nothing(&verlet, 0.1L, GVI_EXPLICIT);

@@ -51,10 +51,10 @@ static const variant variants[] = {
     { GVI_POSITIONS,  0, 0,     4, GVI_LOBATTO, 5 },
     { GVI_POSITIONS,  0, 0,     8, GVI_GAUSS,   8 },
     { GVI_VELOCITIES, 0, 0,     3, GVI_GAUSS,   3 },
-    { GVI_VELOCITIES, 0, FIELD, 1, GVI_GAUSS,   1 },
-    { GVI_VELOCITIES, 0, FIELD, 2, GVI_LOBATTO, 3 },
-    { GVI_VELOCITIES, 0, FIELD, 4, GVI_LOBATTO, 4 },
-    { GVI_VELOCITIES, 0, FIELD, 5, GVI_GAUSS,   7 },
+    { GVI_MOMENTA,    0, FIELD, 1, GVI_GAUSS,   1 },
+    { GVI_NEWTON,     0, FIELD, 2, GVI_LOBATTO, 3 },
+    { GVI_MOMENTA,    0, FIELD, 4, GVI_LOBATTO, 4 },
+    { GVI_NEWTON,     0, FIELD, 5, GVI_GAUSS,   7 },
     { GVI_MOMENTA,    1, 0,     1, GVI_GAUSS,   1 },
     { GVI_MOMENTA,    1, 0,     3, GVI_GAUSS,   3 },
     { GVI_MOMENTA,    1, FIELD, 4, GVI_GAUSS,   4 },
@@ -124,8 +124,8 @@ TEST(every_formulation_finds_the_same_step)
             int covers = all[k] == GVI_AUTO || (all[k] == GVI_EXPLICIT && !a.moving_mass && !a.extra
                     && a.s == 1 && a.rule == GVI_LOBATTO && a.r == 2)
                 || (all[k] == GVI_POSITIONS && !a.moving_mass && !a.extra)
-                || (all[k] == GVI_VELOCITIES && !a.moving_mass)
-                || (all[k] == GVI_MOMENTA && a.moving_mass && a.r == a.s);
+                || (all[k] == GVI_VELOCITIES && !a.moving_mass && !(a.extra & FIELD))
+                || (all[k] == GVI_MOMENTA && (a.moving_mass || a.extra & FIELD) && a.r == a.s);
             if (!covers) continue;
             a.formulation = all[k];
             step_map(&a, start, y);

@@ -137,7 +137,7 @@ static const form forms[] = {
     { "a full mass",       GVI_POSITIONS,   6, DENSE },
     { "AUTO",              GVI_AUTO,        2, DIAGONAL },
     { "drag",              GVI_VELOCITIES,  6, DRAG | DIAGONAL },
-    { "Lagrangian terms",  GVI_VELOCITIES,  6, DRAG | QUARTIC | DIAGONAL },
+    { "Lagrangian terms",  GVI_MOMENTA,     6, DRAG | QUARTIC | DIAGONAL },
     { "momenta",           GVI_MOMENTA,     4, DRAG | DIAGONAL },
     { "M(q)",              GVI_MOMENTA,     6, DRAG | MQ },
     { "v = M(q)^-1 p",     GVI_MOMENTA,     6, DRAG | MQ | SPEED },

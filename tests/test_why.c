@@ -128,7 +128,7 @@ TEST(each_refused_description_has_its_sentence)
     static real one = 1, half[2] = { 0.5L, 0.5L }, ends[2] = { 0, 1 }, twos[2] = { 1, 1 }, far[2] = { 0, 2 };
     static const real mid[3] = { 0.25L, 0.5L, 0.75L }, even[3] = { 1/(real)3, 1/(real)3, 1/(real)3 };
     static const gvi_effect e[] = { { .points = spring, .value = spring } },
-        reads[] = { { .kind = GVI_FORCE, .points = drag } },
+        reads[] = { { .kind = GVI_FORCE, .points = drag } }, term[] = { { .kind = GVI_LAGRANGIAN, .points = nothing } },
         clock[] = { { .points = spring, .value = spring }, { .kind = GVI_CLOCK, .points = clock_1, .user = &one } },
         held[] = { { .kind = GVI_CONSTRAINT, .points = wall, .rows = 1, .user = &rows } },
         crowd[] = { { .kind = GVI_CONSTRAINT, .points = wall, .rows = 16384, .user = &rows } };
@@ -162,6 +162,8 @@ TEST(each_refused_description_has_its_sentence)
         { { .n = 16384, .effects = crowd, .effect_count = 1 }, 1, GVI_E_ARGUMENT, "too large together" },
         { { .n = 1, .effects = reads, .effect_count = 1, .formulation = GVI_POSITIONS }, 1, GVI_E_FORMULATION,
           "pinned formulation" },
+        { { .n = 1, .effects = term, .effect_count = 1, .formulation = GVI_VELOCITIES }, 1, GVI_E_FORMULATION,
+          "GVI_MOMENTA does" },
         { { .n = 1, .effects = reads, .effect_count = 1, .rule = { GVI_KICKS, 2, ends, half } }, 1, GVI_E_FORMULATION,
           "kicks are for" },
         { { .n = 1, .effects = clock, .effect_count = 2, .degree = 2, .rule = { .points = 3 } }, 1, GVI_E_FORMULATION,

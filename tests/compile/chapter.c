@@ -1,5 +1,5 @@
-/* chapter.c - the chapter of chapter.h has counted what the counters say: steps; evaluations, one in each iteration; new
-   rows, once in each iteration and in each prediction */
+/* chapter.c - the chapter of chapter.h has counted what the counters say: steps; evaluations, one in each iteration; stages,
+   once in each step that goes by the first attempt */
 #define GVI_STATIC
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
@@ -21,7 +21,7 @@ GVI_EACH(drag, 2, v, f)
 static int differs(const gvi_stepper *st, int what, unsigned long long counted)
 {
     const double tally = st->in.tally.count[what];
-    static const char *const name[] = { "  steps", ", rows", ", evaluations" };
+    static const char *const name[] = { "  steps", ", stages", ", evaluations" };
     printf("%s %.0f of %llu", name[what], tally, counted);
     return tally < (double)counted || tally > (double)counted;
 }
@@ -44,7 +44,7 @@ int main(void)
         wrong |= st.counters.steps != 1000;
         wrong |= differs(&st, GVI__TALLY_STEPS, st.counters.steps);
         wrong |= st.counters.effect[0] != 8*st.counters.iterations;
-        wrong |= differs(&st, GVI__TALLY_ROWS, st.counters.iterations + st.counters.steps);
+        wrong |= differs(&st, GVI__TALLY_STAGES, st.counters.steps);
         wrong |= differs(&st, GVI__TALLY_EVALUATIONS, st.counters.iterations);
         printf("\n");
     }

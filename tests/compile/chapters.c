@@ -218,8 +218,6 @@ int main(void)
     run("by Newton NEWTON", &d, 20);
     d.effects = term;
     run("term, by Newton LAGRANGIAN NEWTON", &d, 20);
-    d.formulation = GVI_VELOCITIES;
-    run("term LAGRANGIAN", &d, 20);
     d.formulation = GVI_MOMENTA;
     run("term, momenta LAGRANGIAN MOMENTA", &d, 20);
     d.effects = dragged;

@@ -7,7 +7,7 @@
 #   programs   tests and lessons of tests/compile/chapters.txt that need nothing that is missing pass; one that says it needs a
 #              chapter does not pass without it
 #   symbols    none of the chapter is left
-# Then a chapter of its own, tests/compile/chapter.h, is plugged into a copy, in which PART I but for two lines of PLACES
+# Then a chapter of its own, tests/compile/chapter.h, is plugged into a copy, in which PART I but for two lines of PARTS
 # stays as it is.  The table of sizes is that of docs/embedded.md.
 build=$1 dir=$1/chapters count=0
 CC=${CC:-cc}
@@ -176,11 +176,11 @@ plugged=$dir/plugged
 mkdir -p "$plugged"
 awk -f tests/tools/plug.awk tests/compile/chapter.h gvi.h >"$plugged/gvi.h" || fail "chapter.h finds no place"
 part_1() { awk '/^\/\* =* PART II/ { exit } /^\/\* =* PART I:/ { on = 1 } on' "$1"; }
-places() { awk '/^\/\* -* PLACES/ { on = 1 } /^\/\* -* SCENE/ { on = 0 } on'; }
+places() { awk '/^\/\* -* PARTS/ { on = 1 } /^\/\* -* SCENE/ { on = 0 } on'; }
 for of in gvi.h "$plugged/gvi.h"; do
     part_1 "$of" >"$dir/part"
     places <"$dir/part" | sed '/GVI__IN_TALLY/d' >"$dir/places.$(basename "$(dirname "$of")")"
-    awk '/^\/\* -* PLACES/ { off = 1 } /^\/\* -* SCENE/ { off = 0 } !off' "$dir/part" >"$dir/part.$(basename "$(dirname "$of")")"
+    awk '/^\/\* -* PARTS/ { off = 1 } /^\/\* -* SCENE/ { off = 0 } !off' "$dir/part" >"$dir/part.$(basename "$(dirname "$of")")"
 done
 [ "$(wc -l <"$dir/part..")" -gt 1500 ] && cmp "$dir/part.." "$dir/part.plugged" && cmp "$dir/places.." "$dir/places.plugged" ||
     fail "chapter.h changes PART I"
