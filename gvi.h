@@ -974,7 +974,9 @@ struct gvi__rolling {                 /* rows of GVI_NONHOLONOMIC, of m in all  
 #ifndef GVI_NO_DIAL
 struct gvi__dial {
     gvi_real *high;                   /* [r][6] sources to the highest modes                   */
-    int       top;                    /* the highest of them: K of gvi__resolution             */
+    gvi_real *now, *before;           /* [n] y_(K-1), and that of the step before              */
+    gvi_real  span;                   /* h of that step; 0: there is none                      */
+    int       top;                    /* the highest of the modes: K of gvi__resolution        */
     gvi_real  reach;                  /* rung up to which the last measured step would do      */
     gvi_real  barrier;                /* rung of the last length that failed                   */
     int       wait, again;            /* steps below that; failures near it, one after another */
@@ -1296,7 +1298,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
     GVI__LENGTH(GVI__SIZE(n), GVI__SIZE(s), GVI__SIZE(r), GVI__SIZE(GVI__ROW(r)))
 #define GVI__LENGTH(n, s, r, R) (GVI__CORE_LENGTH(n, s, r, R) + GVI__RULES_LENGTH(s)            \
     + GVI__LAGRANGIAN_LENGTH(n, r, R) + GVI__MOMENTA_LENGTH(n, r, R) + GVI__CLOCK_LENGTH(n, R)  \
-    + GVI__KICKS_LENGTH(r) + GVI__NEWTON_LENGTH(n, s, R) + GVI__DIAL_LENGTH(R)                  \
+    + GVI__KICKS_LENGTH(r) + GVI__NEWTON_LENGTH(n, s, R) + GVI__DIAL_LENGTH(n, R)               \
     + ((r) > 4 ? GVI__SLACK : 0))
 
 #ifdef GVI_ONLY_EXPLICIT
@@ -1336,9 +1338,9 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__NEWTON_LENGTH(n, s, R) ((10*(s) + 5*(R) + (3 + 2*(s)*(s))*(n))*(n) + 2)
 #endif
 #ifdef GVI_NO_DIAL
-#define GVI__DIAL_LENGTH(R) 0
+#define GVI__DIAL_LENGTH(n, R) 0
 #else
-#define GVI__DIAL_LENGTH(R) (6*(R))
+#define GVI__DIAL_LENGTH(n, R) (2*(n) + 6*(R))
 #endif
 
 /* GVI_LENGTH with constraints, m rows in all.                                 */
@@ -8404,6 +8406,34 @@ static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real 
     return high <= 4*GVI__EPS*terms || (low <= 4*high && high <= 4*GVI__EPS*change*apart);
 }
 
+/* Mode K of coordinate i by the change of mode K - 1 since the step before; *was: its size there,
+   in steps of this length.                                                                    */
+static gvi_real gvi__mode_since(const gvi_stepper *st, int i, gvi_real *was)
+{
+    const struct gvi__dial *dial = &st->in.dial;
+    const gvi_real h = st->in.sized.h;
+    if (!gvi__nonzero(dial->span)) return 0;
+
+    const gvi_real before = dial->before[i]*gvi__power(h/dial->span, dial->top - 1),
+                   change = (dial->now[i] - before)*(2*h/(h + dial->span));
+    *was = GVI_ABS(before);
+    return GVI_ABS(change)/(gvi_real)(4*dial->top - 2);
+}
+
+// rho^2 of gvi__resolution by the modes of one step
+static gvi_real gvi__mode_fall(int top, const gvi_real *y)
+{
+    const gvi_real high = y[0] + y[1], low = y[2] + y[3], lower = y[4] + y[5],
+                   fall = low > high ? high/low : 1, inside = y[0] < y[1] ? y[0]/y[1] : 1,
+                   flat = GVI_SQRT(inside*fall*GVI_SQRT(fall));
+    if (top < 6) return gvi__larger(flat, fall);
+    if (lower <= high) return 1;
+
+    const gvi_real before = lower > low ? low/lower : 1,
+                   one = gvi__larger(GVI__STEADY*gvi__larger(before, fall), flat);
+    return gvi__larger(GVI_SQRT(high/lower), one);
+}
+
 /* What coordinate i lacks of its velocity, of which y are the modes K, K - 1 .., `ends` at both
    ends and `turn` from end to end.  all: its size.                                            */
 static gvi_real gvi__missed(const gvi_stepper *st, int i, const gvi_real *y, gvi_real ends,
@@ -8412,29 +8442,26 @@ static gvi_real gvi__missed(const gvi_stepper *st, int i, const gvi_real *y, gvi
     const int top = st->in.dial.top, e = 2*st->s - top,
               stiff = st->formulation == GVI_NEWTON && st->in.chosen != GVI_NEWTON
                       && !gvi__constrained(st);
-    gvi_real high = y[0] + y[1], low = y[2] + y[3], fall = 1;                    // fall: rho^2
+    gvi_real high = y[0] + y[1], low = y[2] + y[3], since = 0, was = 0;
 
     *all = ends + high + low;
+    if (top < 5) since = gvi__mode_since(st, i, &was);
     if (top < 4) {
-        const gvi_real one = y[1];                               // alone, a mode may pass 0
-        low = top == 3 ? one + y[2] : turn;
-        high = y[0];
-        if (one > 0) high += one*(one/(top == 3 ? low : *all))/4;
+        high = y[0] + since;                                     // alone, a mode may pass 0
+        low = top == 3 ? y[1] + y[2] : turn;
     }
     // next to nothing: a force as simple as the curve, and no shorter step shows more of it
     if (!(high > 0) || gvi__modes_end(st, i, high, low, *all)) return high*GVI__EPS*GVI__EPS;
     if (stiff) return high;
 
-    if (low > high) fall = high/low;
+    gvi_real fall = low > high ? high/low : 1;                   // rho^2
     if (top == 2) fall *= GVI_SQRT(fall);                        // from y_1, or nearly
-    const gvi_real inside = y[0] < y[1] ? y[0]/y[1] : 1,
-                   flat = GVI_SQRT(inside*fall*GVI_SQRT(fall));
-    if (top >= 6) {
-        const gvi_real lower = y[4] + y[5], before = lower > low ? low/lower : 1;
-        fall = GVI__STEADY*gvi__larger(before, fall);
-        fall = lower > high ? gvi__larger(GVI_SQRT(high/lower), fall) : 1;
+    if (top >= 5) fall = gvi__mode_fall(top, y);
+    else {
+        const gvi_real half = (y[0] + since)/(2*(y[1] + was));
+        fall = gvi__smaller(gvi__larger(half*half, fall), 1);
     }
-    fall = gvi__larger(flat, fall);
+
     gvi_real lacks = gvi__power(fall, e/2)*10;
     if (e & 1) lacks *= GVI_SQRT(fall);
     return high*gvi__smaller(lacks, 1);
@@ -8452,8 +8479,10 @@ static gvi_real gvi__missed(const gvi_stepper *st, int i, const gvi_real *y, gvi
    bend inside a step leave a tail that is flat there.  The step lacks about y_2s, which its points
    take for modes that they see: high rho^e; ten times that, since a short tail may be flatter than
    it looks.  Stiff forces, for which Newton's method had to take over, turn all of y_s into an
-   error: high.  (With constraints it takes over for other reasons.)  Below K = 4 single modes
-   count, below 6 two pairs.  In positions the modes are those of M v, from the forces.  Where
+   error: high.  (With constraints it takes over for other reasons.)  Below K = 6 two pairs count;
+   below 5 low is a constant force as well, which falls nowhere, and below 4 single modes count.
+   There y_(K-1) of the step before, y', says more: |y_(K-1) - y'|/(4 K - 2) is a mode K, too, and
+   rho at least half of both over |y_(K-1)| + |y'|.  In positions the modes are those of M v, from the forces.  Where
    motion is far below max |v| + max |q|/h, each times sqrt(M_ii), and below max |v| + |q_i|/h, so
    that neither a light body nor one near the origin counts as at rest, some eps of the smaller of
    these are rounding of forces that cancel.  Under constraints rounding of g over h is in every
@@ -8475,6 +8504,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
             GVI__UNROLL for (int m = 0; m < 6; ++m) y[m] += a[m]*row[j];
         for (int m = 0; m < pulled; ++m)
             y[m] += in->table.inv_gamma[top - m]*gvi__constraint_mode(st, i, top - m);
+        in->dial.now[i] = unit*y[1];
         GVI__UNROLL for (int m = 0; m < 6; ++m) y[m] = unit*GVI_ABS(y[m]);
         if (forces) {
             start = in->state.p[i];
@@ -8513,6 +8543,8 @@ static gvi_status gvi__dial_accept(gvi_stepper *st)
     if (st->resolution > st->in.desc.resolution)
         return gvi__report_status(st, GVI_E_RESOLUTION);
     st->counters.worst_resolution = gvi__larger(st->resolution, st->counters.worst_resolution);
+    gvi__copy((size_t)st->n, st->in.dial.now, st->in.dial.before);
+    st->in.dial.span = st->in.sized.h;
     return GVI_OK;
 }
 
@@ -9597,8 +9629,10 @@ GVI__COLD void gvi__place_layout(struct gvi__private *in, gvi__arena *a)
     if (in->rolling.bits) gvi__rolling_layout(in, a);
 #endif
 #ifndef GVI_NO_DIAL
-    const size_t R = (size_t)GVI__ROW(in->desc.rule.points);
+    const size_t R = (size_t)GVI__ROW(in->desc.rule.points), n = (size_t)in->desc.n;
     in->dial.high = gvi__take(a, in->desc.resolution > 0 ? 6 : 0, R);
+    in->dial.now = gvi__take(a, in->desc.resolution > 0, n);
+    in->dial.before = gvi__take(a, in->desc.resolution > 0, n);
 #endif
 #ifndef GVI_NO_NEWTON
     if (in->newton.covers) gvi__newton_layout(in, gvi__held_rows(in), a);        // J comes last
@@ -9646,6 +9680,7 @@ GVI__COLD void gvi__place_started(gvi_stepper *st)
 #endif
 #ifndef GVI_NO_DIAL
     st->in.dial.reach = st->in.dial.barrier = -GVI__MAX;
+    st->in.dial.span = 0;
     st->in.dial.wait = st->in.dial.again = 0;
 #endif
 }
