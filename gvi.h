@@ -1707,7 +1707,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 // the dial, in rungs, four an octave
 #define GVI__BAND 2                        // room at which h stays, and that growth leaves
 #define GVI__GROWS 4                       // the most that it grows
-#define GVI__MARGIN ((gvi_real)0.5)        // of room, kept back
+#define GVI__MARGIN 1                      // of room, kept back
 #define GVI__MANY (4 + GVI__DIG/4)         // iterations from which on a longer step does not pay
 #define GVI__WAIT 4                        // steps until a length that failed is tried again
 #define GVI__SHORTER 16                    // below what the resolution allows: Newton's method
@@ -8566,18 +8566,19 @@ static gvi_real gvi__length(gvi_real k)
 }
 
 /* How many rungs up, after a step that succeeded.  `room`: up to where the resolution, of order
-   2s - 1 in h, reaches its limit, less a margin; no more than h may take at once.  What was lost of
-   it since the step before will be lost again.  From 0 to GVI__BAND rungs h stays as it is.  Work over time is iterations/h: from
-   GVI__MANY of them on h does not grow, from 5/3 of that on it shrinks a little.              */
+   2s - 1 in h, reaches its limit, less a margin; more than two octaves no step can tell.  What was
+   lost of it since the step before will be lost again.  From 0 to GVI__BAND rungs h stays as it is.
+   Work over time is iterations/h: from GVI__MANY of them on h does not grow, from 5/3 of that on it
+   shrinks a little.                                                                           */
 static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 {
     struct gvi__dial *dial = &st->in.dial;
     // by velocities the iteration contracts with h, not h^2
     const int many = st->in.stages == 2 ? GVI__MANY*3/2 : GVI__MANY,
               newton = st->formulation == GVI_NEWTON;
-    const gvi_real seen = gvi__smaller(room, GVI__GROWS + GVI__BAND),
+    const gvi_real seen = gvi__smaller(room, 2*GVI__GROWS),
                    left = seen - gvi__larger(dial->reach - (at + seen), 0);
-    gvi_real up = gvi__larger(left - GVI__BAND, 0);
+    gvi_real up = gvi__smaller(gvi__larger(left - GVI__BAND, 0), GVI__GROWS);
 
     dial->reach = at + seen;
     if (left < 0) up = gvi__larger(left - 1, -GVI__FALL);
@@ -8605,9 +8606,11 @@ static gvi_real gvi__rungs_down(gvi_stepper *st, gvi_status status, gvi_real at,
     return dial->put_off ? -3 : -GVI__FALL;
 }
 
-// st.next after a step of length h
+// st.next after a step of length h; one that an end has shortened says nothing of longer ones
 static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
 {
+    if (status == GVI_OK && h < st->next) return;
+
     const gvi_real seen = gvi__larger(st->resolution, GVI__MIN), at = gvi__rungs(h);
     const gvi_real most = gvi__rungs(st->in.desc.resolution) - gvi__rungs(seen);
     // the modes end at rounding: above GVI__DEEP the resolution falls no faster than there
@@ -8615,8 +8618,7 @@ static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
     const gvi_real room = most/(gvi_real)(2*degree - 1) - GVI__MARGIN,
                    up = status == GVI_OK ? gvi__rungs_up(st, at, room)
                                          : gvi__rungs_down(st, status, at, room);
-    const gvi_real next = gvi__length(at + up);
-    if (up < 0 || (up > 0 && h >= st->next)) st->next = next;
+    if (gvi__nonzero(up)) st->next = gvi__length(at + up);
 }
 
 /* A first length: 1/16 of the time in which the forces would make the kinetic energy that there is;

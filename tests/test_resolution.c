@@ -157,7 +157,8 @@ static real measure_of(int s, long double t, long double h)
     const long double high = y[0] + y[1], low = y[2] + y[3], lower = y[4] + y[5];
     long double rho = sqrtl(high/low);
     if (s >= 6) rho = fmaxl(powl(high/lower, 0.25L), 0.8L*fmaxl(rho, sqrtl(low/lower)));
-    rho = fmaxl(rho, powl(fminl(y[0]/y[1], 1), 0.25L)*powl(high/low, 0.375L));
+    if (s < 5) rho = fmaxl(rho, y[0]/(2*y[1]));              // there is no step before
+    else rho = fmaxl(rho, powl(fminl(y[0]/y[1], 1), 0.25L)*powl(high/low, 0.375L));
     return (real)(high*fminl(1, 10*powl(fminl(rho, 1), s))/(sum + high + low));
 }
 
