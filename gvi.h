@@ -793,10 +793,11 @@ typedef struct gvi_desc {
     const gvi_effect *effects;
     int               effect_count;    /* to GVI_EFFECTS; 0 only where effects is NULL */
     gvi_formulation   formulation;     /* pinned: no fall-back and no memory for one */
-    gvi_real          tolerance;       /* 0 to eps/65536: iterate to rounding.  Else, below 1, the
+    gvi_real          tolerance;       /* to eps/65536: iterate to rounding.  Else, below 1, the
                                           iteration ends when the change yet to come, as the last
                                           two changes predict it, is below tolerance*|q|: faster,
-                                          but the energy may drift.  No effect where explicit */
+                                          but the energy may drift.  No effect where explicit.
+                                          0: eps/65536, with the dial resolution/65536 */
     int               max_iterations;  /* to 1,000,000.  0: 60                 */
     int               iterations;      /* N: exactly N iterations in every step, for a loop with
                                           a deadline; never Newton.  A step fails unless its last
@@ -8566,21 +8567,24 @@ static gvi_real gvi__length(gvi_real k)
 }
 
 /* How many rungs up, after a step that succeeded.  `room`: up to where the resolution, of order
-   2s - 1 in h, reaches its limit, less a margin; more than two octaves no step can tell.  What was
-   lost of it since the step before will be lost again.  From 0 to GVI__BAND rungs h stays as it is.
-   Work over time is iterations/h: from GVI__MANY of them on h does not grow, from 5/3 of that on it
-   shrinks a little.                                                                           */
+   2s - 1 in h, reaches its limit, less a margin.  What was lost of it since the step before will be
+   lost again.  From two octaves on the modes show no force, and nothing of the next: h grows by a
+   rung less.  From 0 to GVI__BAND rungs h stays as it is.  Work over time is iterations/h: from
+   GVI__MANY of them on h does not grow, from 5/3 of that on it shrinks a little.              */
 static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 {
     struct gvi__dial *dial = &st->in.dial;
     // by velocities the iteration contracts with h, not h^2
     const int many = st->in.stages == 2 ? GVI__MANY*3/2 : GVI__MANY,
               newton = st->formulation == GVI_NEWTON;
-    const gvi_real seen = gvi__smaller(room, 2*GVI__GROWS),
-                   left = seen - gvi__larger(dial->reach - (at + seen), 0);
-    gvi_real up = gvi__smaller(gvi__larger(left - GVI__BAND, 0), GVI__GROWS);
+    gvi_real left = GVI__GROWS + GVI__BAND - 1, up = 0;
 
-    dial->reach = at + seen;
+    if (room < 2*GVI__GROWS) {
+        left = room - gvi__larger(dial->reach - (at + room), 0);
+        dial->reach = at + room;
+    }
+
+    if (left > GVI__BAND) up = gvi__smaller(left - GVI__BAND, GVI__GROWS);
     if (left < 0) up = gvi__larger(left - 1, -GVI__FALL);
     if (!newton && st->iterations >= many) up = gvi__smaller(up, 0);
     if (!newton && st->iterations >= many*5/3) up = gvi__smaller(up, -1);
@@ -9602,6 +9606,7 @@ GVI__COLD gvi_status gvi__place_chosen(struct gvi__private *in, int order, gvi_f
 #else
         wrong = gvi__wrong_in_resolution(d, order);
         in->desc.resolution = gvi__larger(d->resolution, GVI__EPS);
+        if (!(d->tolerance > 0)) in->desc.tolerance = in->desc.resolution*(GVI__ENOUGH/GVI__EPS);
 #endif
     }
 
