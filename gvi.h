@@ -8568,19 +8568,19 @@ static gvi_real gvi__length(gvi_real k)
 
 /* How many rungs up, after a step that succeeded.  `room`: up to where the resolution, of order
    2s - 1 in h, reaches its limit, less a margin.  What was lost of it since the step before will be
-   lost again.  From two octaves on the modes show no force, and nothing of the next: h grows by a
-   rung less.  From 0 to GVI__BAND rungs h stays as it is.  Work over time is iterations/h: from
-   GVI__MANY of them on h does not grow, from 5/3 of that on it shrinks a little.              */
+   lost again; two octaves are too many to be a measure.  From 0 to GVI__BAND rungs h stays as it
+   is.  Work over time is iterations/h: from GVI__MANY of them on h does not grow, from 5/3 of that
+   on it shrinks a little.                                                                     */
 static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 {
     struct gvi__dial *dial = &st->in.dial;
     // by velocities the iteration contracts with h, not h^2
     const int many = st->in.stages == 2 ? GVI__MANY*3/2 : GVI__MANY,
               newton = st->formulation == GVI_NEWTON;
-    gvi_real left = GVI__GROWS + GVI__BAND - 1, up = 0;
+    gvi_real left = room, up = 0;
 
     if (room < 2*GVI__GROWS) {
-        left = room - gvi__larger(dial->reach - (at + room), 0);
+        left -= gvi__larger(dial->reach - (at + room), 0);
         dial->reach = at + room;
     }
 
