@@ -8389,7 +8389,7 @@ static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real 
     const struct gvi__private *in = &st->in;
     const int forces = in->stages == 1;
     const gvi_real *row = (forces ? in->work.F : in->work.V) + i*in->R;
-    const gvi_real h = GVI_ABS(in->sized.h), M = gvi__place_inertia(st, i),
+    const gvi_real h = GVI_ABS(in->sized.h), inertia = gvi__place_inertia(st, i),
                    p = GVI_ABS(in->state.p[i]), dp = GVI_ABS(in->step.p[i]),
                    first = row[0], last = row[st->r - 1];
     gvi_real terms = GVI_ABS(first) + GVI_ABS(last), change = GVI_ABS(last - first),
@@ -8397,10 +8397,10 @@ static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real 
     if (forces) {
         terms *= h;
         change *= h;
-        apart *= M;
+        apart *= inertia;
     } else {
-        terms += (2*p + dp)/M;
-        change += dp/M;
+        terms += (2*p + dp)/inertia;
+        change += dp/inertia;
     }
 
     apart = (GVI_ABS(st->t) + apart)/h;
@@ -8483,11 +8483,11 @@ static gvi_real gvi__missed(const gvi_stepper *st, int i, const gvi_real *y, gvi
    error: high.  (With constraints it takes over for other reasons.)  Below K = 6 two pairs count;
    below 5 low is a constant force as well, which falls nowhere, and below 4 single modes count.
    There y_(K-1) of the step before, y', says more: |y_(K-1) - y'|/(4 K - 2) is a mode K, too, and
-   rho at least half of both over |y_(K-1)| + |y'|.  In positions the modes are those of M v, from the forces.  Where
-   motion is far below max |v| + max |q|/h, each times sqrt(M_ii), and below max |v| + |q_i|/h, so
-   that neither a light body nor one near the origin counts as at rest, some eps of the smaller of
-   these are rounding of forces that cancel.  Under constraints rounding of g over h is in every
-   velocity, and is all there is of one that starts from rest: no error of h.                  */
+   rho at least half of both over |y_(K-1)| + |y'|.  In positions the modes are those of M v, from
+   the forces.  Where motion is far below max |v| + max |q|/h, each times sqrt(M_ii), and below max
+   |v| + |q_i|/h, so that neither a light body nor one near the origin counts as at rest, some eps
+   of the smaller of these are rounding of forces that cancel.  Under constraints rounding of g over
+   h is in every velocity, and is all there is of one that starts from rest: no error of h.     */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
@@ -8528,7 +8528,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
                        around = gvi__smaller(own, whole);
         const int rests = size[i] < around/GVI__RESTS;
 
-        // what rounding of g makes of it, or of forces that cancel, and those of constraint anywhere
+        // what rounding makes of it: of g, of forces that cancel, of those of constraint anywhere
         gvi_real rounding = shift ? mass[i]*shift[i]/h : 0;
         if (rests || (shift && forces))
             rounding = gvi__larger(GVI__EPS*(shift ? whole : around), rounding);

@@ -572,6 +572,40 @@ TEST(what_moves_by_rounding_alone_does_not_decide)
     }
 }
 
+/* q'' = (9.81 - 22500 cos 1500 t) 10 sin q from t = 4.5758 on: once far too short, h grows again, also where t/h is 1/eps */
+GVI_EACH(driven, 1, f) { x->f[0] += (R(9.81) - 22500*cos(1500*x->t[0]))*10*sin(x->q[0]); }
+
+TEST(steps_far_too_short_are_left)
+{
+    static const gvi_effect effects[] = { { .kind = GVI_FORCE, .points = driven } };
+    const gvi_desc desc = { .n = 1, .effects = effects, .effect_count = 1, .resolution = KIND == 1 ? R(1e-4) : R(1e-13) };
+    const real start = R(4.5758), end = start + 20/R(1500.0);
+    gvi_stepper st = new_motion(&desc, start, (const real[]){ R(0.005) }, (const real[]){ 0 });
+    st.next = KIND == 1 ? R(1e-5) : R(1e-11);
+    int steps = 0;
+    for (; st.t < end && steps < 1000; ++steps) assert_ok(gvi_advance(&st, end));
+    assert_true(st.t >= end && steps < 200);
+}
+
+/* A ball falls onto a soft wall: q + exp(-10 q)/10 + v^2/2 is 10.  What the wall does is small beside the weight at first */
+GVI_EACH(weight_and_wall, 1, f) { x->f[0] += exp(-10*x->q[0]) - 1; }
+
+TEST(a_force_that_begins_beside_a_constant_one_is_seen)
+{
+    static const gvi_effect effects[] = { { .points = weight_and_wall } };
+    if (KIND == 1) return;
+    for (int degree = 3; degree < 5; ++degree) {
+        const real limit = degree == 3 ? R(1e-8) : R(1e-10);
+        const gvi_desc desc = { .n = 1, .degree = degree, .effects = effects, .effect_count = 1, .resolution = limit };
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ 10 }, (const real[]){ 0 });
+        while (st.t < 20) {
+            assert_ok(gvi_advance(&st, 20));
+            const real v = st.p[0], energy = st.q[0] + exp(-10*st.q[0])/10 + v*v/2;
+            assert_close(energy, 10, 100*limit*20*(real)st.counters.steps/16 + 4096*EPS);
+        }
+    }
+}
+
 TEST(a_checkpoint_keeps_the_next_length)
 {
     const gvi_desc desc = of(8, R(1e-4));
