@@ -572,21 +572,6 @@ TEST(what_moves_by_rounding_alone_does_not_decide)
     }
 }
 
-/* q'' = (9.81 - 22500 cos 1500 t) 10 sin q from t = 4.5758 on: once far too short, h grows again, also where t/h is 1/eps */
-GVI_EACH(driven, 1, f) { x->f[0] += (R(9.81) - 22500*cos(1500*x->t[0]))*10*sin(x->q[0]); }
-
-TEST(steps_far_too_short_are_left)
-{
-    static const gvi_effect effects[] = { { .kind = GVI_FORCE, .points = driven } };
-    const gvi_desc desc = { .n = 1, .effects = effects, .effect_count = 1, .resolution = KIND == 1 ? R(1e-4) : R(1e-13) };
-    const real start = R(4.5758), end = start + 20/R(1500.0);
-    gvi_stepper st = new_motion(&desc, start, (const real[]){ R(0.005) }, (const real[]){ 0 });
-    st.next = KIND == 1 ? R(1e-5) : R(1e-11);
-    int steps = 0;
-    for (; st.t < end && steps < 1000; ++steps) assert_ok(gvi_advance(&st, end));
-    assert_true(st.t >= end && steps < 200);
-}
-
 /* A ball falls onto a soft wall: q + exp(-10 q)/10 + v^2/2 is 10.  What the wall does is small beside the weight at first */
 GVI_EACH(weight_and_wall, 1, f) { x->f[0] += exp(-10*x->q[0]) - 1; }
 
