@@ -431,6 +431,9 @@ GVI__MACROS(push_macro)
 #if defined(GVI_NO_MOMENTA) && !defined(GVI_NO_CLOCK)
 #define GVI_NO_CLOCK
 #endif
+#if defined(GVI_NO_MOMENTA) && defined(GVI_NO_NEWTON) && !defined(GVI_NO_LAGRANGIAN)
+#define GVI_NO_LAGRANGIAN
+#endif
 #if (defined(GVI_NO_NEWTON) || defined(GVI_NO_OUTPUT)) && !defined(GVI_NO_BOUNDARY)
 #define GVI_NO_BOUNDARY
 #endif
@@ -1681,12 +1684,10 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 
 // fixed point: contraction of an iteration; how many in a row say what one cannot
 #define GVI__POOR ((gvi_real)0.5)          // it gains less than a bit
-#define GVI__SLOW (GVI__DIG/2)             // to rounding by less than 2 bits: errors grew first
 #define GVI__FAR ((gvi_real)0.25)          // of the motion, a change: the units are an overshoot's
 #define GVI__LEAST ((gvi_real)0.9)         // of the least change so far: a new one
-#define GVI__FEW_POOR 2                    // iterations that are poor: diverges
-#define GVI__MANY_POOR 4                   // the same while changes are far: a cosine's terms grow
-#define GVI__STAGNANT 4                    // iterations without a new least: rounding
+#define GVI__SLOW (GVI__DIG/2)             // to rounding by less than 2 bits: errors grew first
+#define GVI__PATIENCE 3                    // changes that do not fall: diverges
 #define GVI__NEARER 6                      // halvings, where a domain or Newton's residual wants it
 #define GVI__BY_NEWTON 64                  // steps until the fixed point is tried again
 
@@ -2279,9 +2280,11 @@ static gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, con
 #ifndef GVI_NO_CLOCK
 static int gvi__clock_is_on(const gvi_stepper *st);
 static void gvi__clock_velocities(const gvi_stepper *st);
+static gvi_real gvi__clock_rate(const gvi_stepper *st);
 #else
 #define gvi__clock_is_on(st) 0
 #define gvi__clock_velocities(st) ((void)0)
+#define gvi__clock_rate(st) ((void)(st), (gvi_real)1)
 #endif
 
 /* ----------------------------------------------------------------- SCENE */
@@ -3224,16 +3227,15 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 
 /* PLACES of the fixed point: 1) stages; 2) sources, and tables of the predictor; 3) before, between
    and behind the new rows, `between` adds a change; 4) F in place of the effects, and once it is
-   the last F; 5) a verdict or GVI__GO_ON, and how long no new least is chance; a move of coordinate
-   i that is rounding.                                                                          */
-struct gvi__progress;
+   the last F; 5) is there a change that the rows do not show?  Is the rounding of constraints in
+   all of them?  The move of coordinate i that constraints add to the floor.                   */
 static void gvi__place_stages(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                               struct gvi__stage *stage);
 static gvi_status gvi__place_predict(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                      int extrapolate);
 static gvi_status gvi__place_evaluate(gvi_stepper *st, const gvi__origin *from, gvi_points *at);
-static int gvi__place_judge(gvi_stepper *st, const struct gvi__progress *p, gvi_real D,
-                            int *patience);
+static int gvi__place_moves(const gvi_stepper *st);
+static int gvi__place_holds(const gvi_stepper *st);
 #ifndef GVI_NO_MOMENTA
 static gvi_real gvi__place_between(gvi_stepper *st);
 #else
@@ -3245,13 +3247,14 @@ static void gvi__place_before_rows(gvi_stepper *st, const struct gvi__stage *sta
 static void gvi__place_behind_rows(gvi_stepper *st, const struct gvi__stage *stage, gvi_real sum);
 static void gvi__place_last(gvi_stepper *st, const gvi__origin *from,
                             const struct gvi__stage *stage);
-static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m);
+static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m,
+                                gvi_real eps, int moves);
 #else
 #define gvi__place_predictor(st, alpha, beta) ((void)(alpha))
 #define gvi__place_before_rows(st, stage) ((void)0)
 #define gvi__place_behind_rows(st, stage, sum) ((void)0)
 #define gvi__place_last(st, from, stage) ((void)0)
-#define gvi__place_push(st, h, i, m) 0
+#define gvi__place_push(st, h, i, m, eps, moves) ((void)(moves), (gvi_real)0)
 #endif
 
 /* PLACES of the solvers: in place of the fixed point, 1 if *status is the result; where that has
@@ -3726,60 +3729,85 @@ static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from,
 
 enum { GVI__GO_ON, GVI__DONE, GVI__ONCE_MORE, GVI__DIVERGES, GVI__NOT_FINITE };
 
-/* Where an iteration stands, in squares: the changes of all rows in the last iterations, and the
-   least so far; the contraction of the last step, 1 if there is none, or 2 if no ratio counts;
-   gvi__noise when it was last made; how often no new least was seen, or no good contraction; are
-   units to be made anew?                                                                      */
+/* Where an iteration stands, in squares: the changes of all rows in the last two iterations; the
+   contraction of the last step, 1 if there is none, or 2 if no ratio counts; the least change so
+   far.  The excess over the floor when it was last made; how many changes in a row were no new
+   least; how many were poor, and the excess with them; are units to be made anew?             */
 typedef struct gvi__progress {
-    gvi_real before, earlier, before_earlier, least, ratio, noise;
-    int      used, stagnant, growing, rescale;
+    gvi_real before, earlier, ratio, least, excess;
+    int      used, idle, poor, rescale;
 } gvi__progress;
 
-/* The largest change of a row that is beyond a few units of the last place of its largest
-   value, in units of 32 eps of the largest amplitude; 0: there is none.  An amplitude is |Q_i|
-   times sqrt(M_ii), with h V_i or h P_i/M_ii in place of Q_i for those rows.  Up to 1 a row
-   that does not settle is nothing but noise, where large forces cancel: a light body midway
-   between two heavy ones.                                                                     */
-GVI__CALLED gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *stage)
+// the largest of row i and its base
+static gvi_real gvi__size_of_row(const gvi_stepper *st, const gvi__stage *stage, int i)
 {
-    const int R = st->in.R, n = st->n, dense = st->in.desc.mass.kind == GVI_MASS_DENSE,
-              parts = gvi__parts(&st->in) != 0;
-    gvi_real largest = 0, noise = 0;
+    gvi_real size = GVI_ABS(stage->base[i]);
+    for (int j = 0; j < st->r; ++j)
+        size = gvi__larger(GVI_ABS(stage->rows[i*st->in.R + j]), size);
+    return size;
+}
 
-    for (int k = 0; k < st->in.stages; ++k)
-        for (int i = 0; i < n && !stage[k].quiet; ++i) {
-            const gvi_real *row = stage[k].rows + i*R,
-                           m = parts ? gvi__place_inertia(st, i)
-                                     : GVI_ABS(st->in.mass.matrix[dense ? i*(n + 1) : i]);
-            gvi_real size = GVI_ABS(stage[k].base[i]), unit = 1, change = 0;
-            if (stage[k].of != GVI__OF_Q) unit = GVI_ABS(h);
-            if (stage[k].of == GVI__OF_P) unit /= m;
-            unit *= GVI_SQRT(m);
-            for (int j = 0; j < st->r; ++j) size = gvi__larger(GVI_ABS(row[j]), size);
-            if (stage[k].scale[i] > 0) change = GVI_SQRT(stage[k].change[i])/stage[k].scale[i];
-            largest = gvi__larger(unit*size, largest);
+// what makes an amplitude of row i: |Q_i| sqrt(M_ii), with h V_i or h P_i/M_ii in place of Q_i
+static gvi_real gvi__amplitude_of(const gvi_stepper *st, gvi_real h, const gvi__stage *stage,
+                                  gvi_real m)
+{
+    gvi_real unit = GVI_SQRT(m);
+    if (stage->of != GVI__OF_Q) unit *= GVI_ABS(h);
+    if (stage->of == GVI__OF_P) unit *= gvi__clock_rate(st)/m;
+    return unit;
+}
 
-            const gvi_real push = parts ? gvi__place_push(st, h, i, m) : 0;
-            if (!(change > GVI__PLACE*GVI__EPS*size)) continue;
-            if (change <= push) change *= GVI__EPS;              // counts next to nothing
-            noise = gvi__larger(unit*change, noise);
+static gvi_real gvi__inertia(const gvi_stepper *st, int i)
+{
+    const int dense = st->in.desc.mass.kind == GVI_MASS_DENSE;
+    if (gvi__parts(&st->in)) return gvi__place_inertia(st, i);
+    return GVI_ABS(st->in.mass.matrix[dense ? i*(st->n + 1) : i]);
+}
+
+/* THE FLOOR: what rounding alone changes of a row from one iteration to the next, and how far the
+   changes exceed it, the largest of all rows.  A row's own floor is 4 eps of its largest value.
+   With `all` it is 32 eps of the largest amplitude: where the iteration contracts, h^2 dF/dQ between
+   amplitudes is below 1, so the rounding of one coordinate makes no more than that of another: a
+   light body midway between two heavy ones.  To both comes what constraints add: to Q the rounding
+   of g as well, which a velocity must not show.                                               */
+GVI__CALLED gvi_real gvi__excess(const gvi_stepper *st, gvi_real h, const gvi__stage *stage, int all)
+{
+    const int parts = gvi__parts(&st->in) != 0;
+    const gvi_real eps = GVI__EPS*(all ? GVI__NOISE : GVI__PLACE);
+    gvi_real largest = 0, excess = 0;
+
+    for (const gvi__stage *y = stage; all && y < stage + st->in.stages; ++y)
+        for (int i = 0; i < st->n && !y->quiet; ++i) {
+            const gvi_real unit = gvi__amplitude_of(st, h, y, gvi__inertia(st, i));
+            largest = gvi__larger(unit*gvi__size_of_row(st, y, i), largest);
         }
-    return noise > 0 ? noise/(GVI__NOISE*GVI__EPS*largest) : 0;
+
+    for (const gvi__stage *y = stage; y < stage + st->in.stages; ++y)
+        for (int i = 0; i < st->n && !y->quiet; ++i) {
+            const int moves = all && y->of == GVI__OF_Q;
+            const gvi_real m = gvi__inertia(st, i), unit = gvi__amplitude_of(st, h, y, m),
+                           size = all ? largest : unit*gvi__size_of_row(st, y, i),
+                           push = parts ? gvi__place_push(st, h, i, m, eps, moves) : 0;
+            if (!(y->scale[i] > 0) || !(y->change[i] > 0)) continue;
+            const gvi_real change = unit*(GVI_SQRT(y->change[i])/y->scale[i]);
+            excess = gvi__larger(change/(eps*size + GVI_SQRT(m)*push), excess);
+        }
+    return excess;
 }
 
 /* Settled: the next change, D times the ratio of the last two, is within the tolerance: of all
-   rows, and of each, so that none hides behind a larger one.  One ratio may be luck: unless D is
-   rounding, the one before, or that of the last step, must agree; after an attempt that failed
-   there is none, and D itself must be within the tolerance.  All in squares, so that nothing
-   waits for a root.                                                                           */
-static int gvi__settled(gvi_stepper *st, const gvi__progress *p, gvi_real D, gvi_real rounding)
+   rows, and of each, so that none hides behind a larger one.  One ratio may be luck: the one
+   before, or that of the last step, must agree; after an attempt that failed there is none, and D
+   itself must be within the tolerance.  All in squares, so that nothing waits for a root.     */
+static int gvi__settled(gvi_stepper *st, const gvi__progress *p, gvi_real D)
 {
-    const gvi_real wanted = gvi__larger(st->in.desc.tolerance, GVI__ENOUGH), limit = wanted*wanted;
+    const gvi_real wanted = gvi__larger(st->in.desc.tolerance, GVI__ENOUGH), limit = wanted*wanted,
+                   place = GVI__EPS*GVI__EPS*(gvi_real)(16*st->n*st->r);
     const int alone = p->used == 1 || p->ratio > 1, rows = st->in.stages*st->n;
     const gvi_real last = alone ? D : gvi__smaller(p->before, 1);
 
     if (!(D*D <= limit*last)) return 0;           // NaN as well
-    if (!alone && D > rounding) {
+    if (!alone && D > place) {
         const gvi_real other = p->earlier > 0 ? p->before/gvi__smaller(p->earlier, 1) : p->ratio;
         if (!(D*other <= limit)) return 0;
         st->in.watch.found = D/last;
@@ -3794,86 +3822,93 @@ static int gvi__settled(gvi_stepper *st, const gvi__progress *p, gvi_real D, gvi
     return 1;
 }
 
-// what later verdicts ask of this change: does it grow, is it the least?
+// it falls by less than a bit
+static int gvi__is_poor(const gvi__progress *p)
+{
+    return p->earlier > 0 && p->before >= p->earlier*(GVI__POOR*GVI__POOR);
+}
+
+// what later verdicts need of this change
 static void gvi__note(gvi_stepper *st, gvi__progress *p, gvi_real D)
 {
-    const gvi_real worst = st->counters.worst_contraction, noise = GVI__SURE*GVI__EPS;
-    const int grows = p->before > 0 && D >= p->before*(GVI__POOR*GVI__POOR);
-    if (p->earlier > 0 && D > noise*noise && D > worst*worst*worst*worst*p->earlier)
+    const gvi_real worst = st->counters.worst_contraction, sure = GVI__SURE*GVI__EPS;
+    if (p->earlier > 0 && D > sure*sure && D > worst*worst*worst*worst*p->earlier)
         st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(D/p->earlier));
-    p->rescale = D > GVI__FAR*GVI__FAR || grows;  // those were the units of an overshoot
-    p->growing = grows ? p->growing + 1 : 0;
-    p->stagnant = D < GVI__LEAST*GVI__LEAST*p->least ? 0 : p->stagnant + 1;
-    p->least = gvi__smaller(p->least, D);
-    p->before_earlier = p->earlier;
+
     p->earlier = p->before;
     p->before = D;
+    p->idle = D < GVI__LEAST*GVI__LEAST*p->least ? 0 : p->idle + 1;
+    p->least = gvi__smaller(p->least, D);
+
+    // those were the units of an overshoot
+    p->rescale = D > GVI__FAR*GVI__FAR || gvi__is_poor(p);
 }
 
-// iterations given: done if D falls, or is rounding
-static int gvi__falls(const gvi__progress *p, gvi_real D)
+// may a change be rounding?  Not while a row falls to a quarter, above its last places
+static int gvi__stands_still(const gvi_stepper *st)
 {
-    const gvi_real was = p->earlier, two = p->before_earlier;
-    if (was > 0 && D > GVI__FAR*GVI__FAR) return 0;             // its units may grow with it
-    if (two > 0) return D < two*(GVI__POOR*GVI__POOR);
-    return was <= 0 || D < was;
+    const gvi_real *change = st->in.watch.change, *before = st->in.watch.before,
+                   place = GVI__PLACE*GVI__EPS;
+    if (gvi__parts(&st->in) && gvi__place_moves(st)) return 0;
+    for (int row = 0; row < st->in.stages*st->n; ++row)
+        if (change[row] > place*place && change[row] < before[row]/16) return 0;
+    return 1;
 }
 
-// may the iteration end here, or should another solver go on?  Else GVI__GO_ON
-static int gvi__rests(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h,
-                      const gvi__stage *stage, int patience)
+/* What falls goes on.  What makes no new least is rounding below the floor: below a row's own at
+   once, below that of all rows after a while, which as a rule is above what a row can reach.
+   What is above it and falls by less than a bit, time after time, does not converge.  Under
+   constraints the rounding of g is in every D, and shows sooner.                              */
+static int gvi__rests(gvi_stepper *st, gvi__progress *p, gvi_real h, const gvi__stage *stage)
 {
-    const gvi_real sure = GVI__SURE*GVI__EPS;
-    const int turns = st->in.turns, few = D > GVI__FAR*GVI__FAR ? GVI__MANY_POOR : GVI__FEW_POOR;
-    const int poor = turns && p->growing > few && D > sure*sure*(gvi_real)(st->n*st->r),
-              least = p->stagnant <= patience;
+    const int patience = gvi__parts(&st->in) && gvi__place_holds(st) ? 0 : 1,
+              long_since = p->idle > 1 + 3*patience, poor = gvi__is_poor(p),
+              still = p->idle > patience && gvi__stands_still(st);
 
-    if (least && !poor) return GVI__GO_ON;
+    const int rest = st->in.turns && p->used - p->idle >= GVI__SLOW ? GVI__DIVERGES : GVI__ONCE_MORE;
+    if (still && gvi__excess(st, h, stage, 0) <= 1) return rest;
+    if (!poor) p->poor = 0;
+    if (!poor && !long_since) return GVI__GO_ON;
 
-    const gvi_real noise = gvi__noise(st, h, stage);
-    const int long_since = p->stagnant > (patience > 0 ? GVI__STAGNANT : 1),
-              slow = p->used - p->stagnant >= GVI__SLOW;         // errors grew first
-    const gvi_real none = patience < 0 ? GVI__ENOUGH/GVI__EPS : 0;
-    if (!least && (noise <= none || (noise <= 1 && long_since)))
-        return slow && turns ? GVI__DIVERGES : GVI__ONCE_MORE;
+    const gvi_real excess = gvi__excess(st, h, stage, 1);
+    if (still && long_since && excess <= 1) return rest;
 
     // a row that tends to 0 changes by its whole size: does its amplitude fall?
-    if (poor && noise > 1 && noise > p->noise/2) return GVI__DIVERGES;
-    if (poor) p->noise = noise;
-    return GVI__GO_ON;
+    p->poor = excess > 1 && excess > p->excess/2 ? p->poor + poor : 0;
+    p->excess = excess;
+    return st->in.turns && p->poor > GVI__PATIENCE ? GVI__DIVERGES : GVI__GO_ON;
 }
 
 static int gvi__verdict(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h,
                         const gvi__stage *stage)
 {
     const gvi_desc *d = &st->in.desc;
-    const gvi_real place = GVI__PLACE*GVI__EPS;
     const int given = d->iterations > 0;
-    int verdict = GVI__GO_ON, patience = 1;       // so many without a new least may be chance
 
-    if (!given && gvi__settled(st, p, D, place*place*(gvi_real)(st->n*st->r))) return GVI__DONE;
+    if (!given && gvi__settled(st, p, D)) return GVI__DONE;
     if (!gvi__finite(D)) {                        // far off already, it was on its way to infinity
-        const int far = p->growing > 0 || p->before > (gvi_real)st->n || GVI__LOOKS(st);
+        const int far = p->poor > 0 || p->before > (gvi_real)st->n || GVI__LOOKS(st);
         return far ? GVI__DIVERGES : GVI__NOT_FINITE;
     }
 
     gvi__note(st, p, D);
-    if (p->used < d->iterations) return GVI__GO_ON;
-    if (given)
-        return gvi__falls(p, D) || gvi__noise(st, h, stage) <= 1 ? GVI__DONE : GVI__DIVERGES;
-    if (gvi__parts(&st->in)) verdict = gvi__place_judge(st, p, D, &patience);
-    if (verdict == GVI__GO_ON) verdict = gvi__rests(st, p, D, h, stage, patience);
-    if (verdict == GVI__GO_ON && p->used >= d->max_iterations) verdict = GVI__DIVERGES;
-    return verdict;
+    if (given) {
+        const int first = !(p->earlier > 0), falls = D < p->earlier && !(D > GVI__FAR*GVI__FAR);
+        if (p->used < d->iterations) return GVI__GO_ON;
+        return first || falls || gvi__excess(st, h, stage, 1) <= 1 ? GVI__DONE : GVI__DIVERGES;
+    }
+
+    const int verdict = gvi__rests(st, p, h, stage);
+    return verdict == GVI__GO_ON && p->used >= d->max_iterations ? GVI__DIVERGES : verdict;
 }
 
 /* The iteration.  It ends where
-     - the next change is within the tolerance, or far below rounding: done;
-     - D stagnates at rounding: F once more, so that rows that go to and fro in their last places
-       end with their own F, not that of the side they came from, which is a bias: done;
-     - iterations are given and made: done if D falls, or is rounding;
-     - there is another solver, and D falls by less than GVI__POOR too often, or reached rounding
-       slowly, which lets errors grow before they shrink: no convergence;
+     - the next change is within the tolerance: done;
+     - D does not fall, and all is below the floor: F once more, so that rows that go to and fro in
+       their last places end with their own F, not that of the side they came from, which is a
+       bias: done;
+     - iterations are given and made: done if D falls, or is below the floor;
+     - there is another solver, and neither D nor the excess falls, too often: no convergence;
      - max_iterations are made, or D is not finite: no convergence.                            */
 GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                    int extrapolate, gvi__progress *p)
@@ -4030,7 +4065,7 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__origin *from, gvi
 
     if (usable) gvi__prepare_predictor(st, h, query, 0);
     for (int plain = !usable; plain < 2; ++plain) {
-        gvi__progress p = { 0, 0, 0, GVI__MAX, ratio, GVI__MAX, 1, 0, 0, 1 };
+        gvi__progress p = { 0, 0, ratio, GVI__MAX, GVI__MAX, 1, 0, 0, 1 };
         status = gvi__iterate(st, from, h, !plain, &p);                               // 1) to 5)
         gvi__count(&st->counters.iterations, p.used);
         if (!query) st->iterations = p.used;
@@ -5020,6 +5055,15 @@ static gvi_status gvi__clock_at(gvi_stepper *st, gvi_real t, const gvi_real *q, 
     return gvi__rate(st, &at, rate, slope);
 }
 
+// the largest rate of the step's points; 1 without a clock
+static gvi_real gvi__clock_rate(const gvi_stepper *st)
+{
+    if (!gvi__clock_is_on(st)) return 1;
+    gvi_real rate = st->in.time.rate[0];
+    for (int k = 1; k < st->r; ++k) rate = gvi__larger(st->in.time.rate[k], rate);
+    return rate;
+}
+
 // z := sum_j T_j h b_j source_j at all points: the rule of Q
 static void gvi__time_sums(const gvi_stepper *st, const gvi_real *source, gvi_real *z)
 {
@@ -5488,17 +5532,14 @@ typedef struct gvi__matrix {
     gvi_real *unit;        /* of the multipliers, in which the LU has their columns         */
 } gvi__matrix;
 
-/* Where Newton's method stands: the last changes and the least; rho, the contraction seen; what
-   is left of the error, once a change was rounding; the residual in units of its own terms, and
-   once its change is made the work that does in it, or -1 where either is rounding; the
-   residual's norm at the last y that stayed; the last change by each coordinate's size, and what
-   rounding makes of one, see gvi__newton_update; how often no change was less than half of the
-   least; is there a matrix that will do, is it new (1) and was the last one (2); how often was
-   the last change halved, or -1: none to take back; did that change move the residual by half of
-   itself, or is the residual rounding?                                                        */
+/* Where Newton's method stands: the last changes and the least; rho, the contraction seen; the
+   residual in units of its own terms, its norm at the last y that stayed; the last change by each
+   coordinate's size, and over the floor; how often no change was less than half of the least; is
+   there a matrix that will do, is it new; how often was the last change halved, or -1: none to
+   take back; did that change move the residual by half of itself, or is the residual rounding?  */
 typedef struct gvi__descent {
-    gvi_real before, earlier, least, rho, left, work, norm, each, grain;
-    int      stagnant, have, fresh, halves, holds;
+    gvi_real before, earlier, least, rho, work, norm, each, excess;
+    int      idle, have, fresh, halves, holds;
 } gvi__descent;
 
 /* What is held plugs in here: its count of unknowns; g and forces at y; what they add to row k of
@@ -5874,20 +5915,18 @@ static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
 
 /* y += dy from row k0 on; returns the sum of the coordinates' relative changes, to p->each as well;
    but with constraints, which give each coordinate the rounding of all q, the sum of changes over
-   the largest coordinate, each times sqrt(M_ii), and to p->grain that rounding.  p->work: the work
-   of the change, or -1 where all of it is a few last places of q, or the residual was rounding. */
+   the largest coordinate, each times sqrt(M_ii).  p->excess: the largest over the floor, as in
+   gvi__excess.                                                                                */
 static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, const gvi__matrix *J,
                                    gvi__descent *p)
 {
     struct gvi__private *in = &st->in;
-    const int n = st->n, solved = p->work <= GVI__SOLVED*GVI__EPS,
-              sure = p->holds || p->rho < GVI__CONTRACTS;
+    const int n = st->n, held = gvi__held(st) > 0;
     const gvi_real h = GVI_ABS(in->sized.h), none = GVI__MIN/GVI__EPS;
-    gvi_real sum = 0, largest = 0, noise = 0, all = 0, length = 0;
+    gvi_real sum = 0, largest = 0, moved = 0, all = 0, length = 0;
 
-    p->work = 0;
     for (int i = 0; i < n; ++i) {
-        gvi_real change = 0, size = 0, miss = 0;
+        gvi_real change = 0, size = 0;
         const gvi_real q = GVI_ABS(from->q[i]), unit = in->watch.scale[i];
         for (int k = 0; k < st->s; ++k) {
             gvi_real *y = in->newton.y + k*n + i;
@@ -5896,19 +5935,15 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
             if (k >= J->k0) {
                 *y += in->newton.dy[at];
                 change += GVI_ABS(in->newton.dy[at]);
-                miss += GVI_ABS(in->newton.residual[at]);
-                p->work += GVI_ABS(in->newton.dy[at]*in->newton.residual[at]);
             }
             size += GVI_ABS(*y);
         }
         const gvi_real least = GVI__EPS*change;                       // y may land on 0
         if (!(size <= none && change <= none)) sum += change/(size < least ? least : size);
         all += change/unit;
-        if (size > length*unit) length = size/unit;
-        if (q + h*size > largest*unit) largest = (q + h*size)/unit;
-        // a wrong matrix may make the change small, not the residual
-        const gvi_real moved = change/unit > miss*unit ? change/unit : miss*unit;
-        if (!(h*change <= GVI__PLACE*GVI__EPS*q) && h*moved > noise) noise = h*moved;
+        length = gvi__larger(size/unit, length);
+        largest = gvi__larger((q + h*size)/unit, largest);
+        moved = gvi__larger(h*change/unit, moved);
     }
 
     for (size_t k = (size_t)(st->s*n); k < gvi__unknowns(st, 0); ++k) {   // multipliers
@@ -5916,111 +5951,87 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
         in->newton.y[k] += in->newton.dy[k];
     }
 
-    // see gvi__noise
-    const gvi_real place = p->stagnant > 1 ? GVI__NOISE*GVI__EPS*largest : 0;
-    if ((noise <= place && sure) || solved) p->work = -1;
     p->each = sum;
-    p->grain = GVI__EPS;
-    if (gvi__held(st) == 0 || !(length > none)) return sum;
-    if (largest > h*length) p->grain *= largest/(h*length);
-    return all/length;
+    p->excess = moved > 0 ? moved/(GVI__NOISE*GVI__EPS*largest) : 0;
+    in->newton.noise = GVI__EPS;
+    if (held && length > none && largest > h*length) in->newton.noise *= largest/(h*length);
+    in->newton.noise *= GVI__GRAIN*(gvi_real)(st->s*n);
+    return held && length > none ? all/length : sum;
 }
 
-// what later verdicts ask of this change: the contraction, and whether it still shrinks
-static void gvi__newton_note(gvi_stepper *st, gvi__descent *p, gvi_real change, gvi_real noise)
+/* What later verdicts need of this change.  To fall is to be at most half of the least so far: what
+   is rounded to a grid may circle among a few of its points.                                  */
+static void gvi__newton_note(gvi_stepper *st, gvi__descent *p, gvi_real change)
 {
-    const gvi_real before = p->before;
+    const int first = !(p->before > 0), falls = first || change <= p->least/2,
+              felt = !first && p->excess > 1;
+
     if (p->earlier > 0 && change > GVI__SURE*GVI__EPS) {
         const gvi_real contraction = GVI_SQRT(change/p->earlier);
         st->counters.worst_contraction = gvi__larger(contraction, st->counters.worst_contraction);
     }
 
-    const int stagnant = before > 0 && change > p->least/2, rests = p->left < GVI__MAX;
-    p->stagnant = stagnant ? p->stagnant + 1 : 0;
-    if (before > 0 && !stagnant && !rests && (change > noise || change < p->rho*p->least))
-        p->rho = change/p->least;
+    if (felt) st->in.newton.bend = gvi__larger(change/p->before, st->in.newton.bend);
+    if (!first && falls && (felt || change < p->rho*p->least)) p->rho = change/p->least;
+    p->idle = falls ? 0 : p->idle + 1;
     p->least = gvi__smaller(change, p->least);
-
-    const int felt = gvi__held(st) == 0 || p->work >= 0;   // not the rounding of g
-    if (before > 0 && change > noise && felt)
-        st->in.newton.bend = gvi__larger(change/before, st->in.newton.bend);
+    p->earlier = p->before;
+    p->before = change;
 }
 
-/* Is it rounding?  One that does not shrink is, if y, q or the residual is, or if it is small and
-   its matrix is new or has contracted here: an older one can repeat any change.  It then hides no
-   more of the error, p->left, than the change before, which shrinks on by the contraction seen. */
-static int gvi__newton_rests(gvi__descent *p, gvi_real change, gvi_real noise)
-{
-    const gvi_real quarter = GVI__CONTRACTS;
-    const int fresh = p->fresh & 1, proven = (fresh && p->holds) || p->rho < quarter;
-    const int small = change <= noise || (fresh && change <= GVI_SQRT(GVI__EPS));
-    if (p->stagnant > 0 && !(p->left < GVI__MAX) && (p->work < 0 || (proven && small)))
-        p->left = p->before;
-    if (!(p->left < GVI__MAX)) return 0;
-    p->left *= gvi__smaller(p->rho, quarter);
-    return 1;
-}
-
-/* The verdict on a change.  To shrink is to be at most half of the least so far: what is rounded to
-   a grid may circle among a few of its points, and fall in every iteration.  Nor is a fall from an
-   overshoot far beyond the size of y a contraction.  One ratio by an old matrix may
-   be luck: unless the change is rounding, the one before must agree.                          */
-static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p,
-                                 gvi_real change)
+/* The verdict on a change.  It is rounding if it does not fall and is below the floor, the more
+   changes in a row the higher, by a matrix that is right: it has contracted, or the residual shows
+   it.  Two facts count as the floor after three changes: a new matrix that is right does not make
+   small ones fall, so the callbacks are noisy; or the residual is rounding, where the matrix is
+   nearly singular.                                                                            */
+static int gvi__newton_converged(gvi_stepper *st, gvi__descent *p, gvi_real change)
 {
     const gvi_real all = (gvi_real)st->n, quarter = GVI__CONTRACTS,
-                   noise = GVI__GRAIN*p->grain*(gvi_real)((st->s - J->k0)*st->n),
                    enough = gvi__larger(st->in.desc.tolerance, GVI__NEWTON_ENOUGH);
     gvi_real ratio = 1, other = 1;
 
+    // a fall from an overshoot far beyond the size of y is no contraction
     if (!gvi__finite(change)) return GVI__NOT_FINITE;
-    st->in.newton.noise = noise;
     if (p->before > 0) ratio = change/gvi__smaller(p->before, all);
     if (p->earlier > 0) other = p->before/gvi__smaller(p->earlier, all);
-    gvi__newton_note(st, p, change, noise);
-    const int rests = gvi__newton_rests(p, change, noise), contracts = p->rho < quarter;
+    gvi__newton_note(st, p, change);
 
-    const int confirmed = (p->fresh & 1 && p->holds) || change <= noise || change*other <= enough;
-    const int done = (p->each*ratio <= enough && confirmed) || p->left <= enough;
-    if (done && (p->holds || contracts)) return GVI__DONE;
+    const int right = p->holds || p->rho < quarter, proven = p->fresh && p->holds,
+              noisy = (proven && change <= GVI_SQRT(GVI__EPS)) || p->work <= GVI__SOLVED*GVI__EPS,
+              below = p->excess <= (gvi_real)(p->idle*p->idle)/8 || (noisy && p->idle > 2);
+    if (right && below && p->idle > 1) return GVI__DONE;
 
-    // rounding by a matrix that has contracted here asks for no other
-    if (!rests && !(p->work < 0 && contracts) && p->before > 0 && ratio > quarter) p->have = 0;
-    p->earlier = p->before;
-    p->before = change;
+    // one ratio by an old matrix may be luck: above the floor the one before must agree
+    const int confirmed = proven || p->excess <= 1 || change*other <= enough;
+    if (right && confirmed && p->each*ratio <= enough) return GVI__DONE;
+
+    if (p->earlier > 0 && ratio > quarter && (!right || p->excess > 1)) p->have = 0;
     return GVI__GO_ON;
 }
 
-/* Does y, whose residual has that norm, stay?  A change that is not small and has not reduced the
+/* Does y, whose residual has that norm, stay?  A change above the floor that has not reduced the
    residual is taken back, for a new matrix; or halved, if the matrix was new.  Where six halvings
    have not helped, the whole change stands: across a kink, or from one curve to the next, the way
-   down may lead up first.  And what seemed to be rounding but grows again was no rounding.    */
+   down may lead up first.                                                                     */
 static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p, gvi_real norm)
 {
     enum { HALVES = GVI__NEARER };
-    const int rests = p->left < GVI__MAX, fresh = p->fresh & 1;
-    if (J->halves && p->halves >= 0 && p->halves <= HALVES && !(norm < p->norm) && !rests
+    if (J->halves && p->halves >= 0 && p->halves <= HALVES && !(norm < p->norm)
         && p->before > GVI_SQRT(GVI__EPS)) {
         gvi_real *y = st->in.newton.y, *last = st->in.newton.last;
-        const gvi_real part = !fresh               ? 0
+        const gvi_real part = !p->fresh            ? 0
                               : p->halves < HALVES ? (gvi_real)0.5
                                                    : (gvi_real)(1 << HALVES);
         for (size_t i = 0, all = gvi__unknowns(st, 0); i < all; ++i)
             y[i] = last[i] + part*(y[i] - last[i]);
-        if (fresh) p->halves += 1;
+        if (p->fresh) p->halves += 1;
         else p->have = 0, p->halves = -1;
         gvi__count(&st->counters.newton_iterations, 1);
         return 0;
     }
 
     if (p->halves > 0) p->have = 0;                // another place: another matrix
-    if (rests && norm/16 > p->norm) {
-        p->before = 0;
-        p->least = p->left = GVI__MAX;
-        p->rho = GVI__CONTRACTS;
-    }
-
-    if (!(p->left < GVI__MAX)) p->norm = norm;
+    p->norm = norm;
     return 1;
 }
 
@@ -6032,8 +6043,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
     const int size = (int)gvi__unknowns(st, J->k0), modes = (st->s - J->k0)*st->n,
               kept = J->pivot == in->newton.pivot;
     gvi__descent p = {
-        0, 0, GVI__MAX, GVI__CONTRACTS, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, -1, 0
-
+        0, 0, GVI__MAX, GVI__CONTRACTS, 0, GVI__MAX, 0, 0, 0, 0, 0, -1, 0
     };
     p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);
     in->newton.bend = 0;
@@ -6043,7 +6053,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
         // one more evaluation, then done
         if (status != GVI_OK || verdict == GVI__DONE) return status;
         if (!gvi__newton_stays(st, J, &p, gvi__residual(st, from, J->k0, &p))) continue;
-        p.fresh = (p.fresh & 1) << 1 | !p.have;
+        p.fresh = !p.have;
         if (!p.have) {
             if (++made > in->desc.max_iterations/4 + 2) break;
             status = gvi__jacobian(st, J);
@@ -6059,7 +6069,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
         gvi_lu_solve(size, J->square, J->pivot, in->newton.dy);
         for (int z = modes; z < size; ++z) in->newton.dy[z] *= J->unit[z - modes];
         gvi__count(&st->counters.newton_iterations, 1);
-        verdict = gvi__newton_converged(st, J, &p, gvi__newton_update(st, from, J, &p));
+        verdict = gvi__newton_converged(st, &p, gvi__newton_update(st, from, J, &p));
         if (verdict == GVI__NOT_FINITE)
             return gvi__report_status(st, GVI__LOOKS(st) ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
         p.halves = 0;
@@ -6955,42 +6965,19 @@ GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int row, int point)
     return lost*A[(row*m + row)*C];
 }
 
-// is rank being lost?  Near a bifurcation it would be leaving the motion for that of another branch
-GVI__CALLED int gvi__constraint_judge(const gvi_stepper *st, const gvi__progress *p, gvi_real D)
-{
-    const gvi_real grain = GVI__GRAIN*GVI__GRAIN*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r);
-    const int m = st->in.con.m;
-    gvi_real loss = 0;
-    if (!(D > 16*p->least && D > grain)) return GVI__GO_ON;
-    for (int k = 0; k < st->s*m; ++k) loss = gvi__larger(gvi__loss(st, k % m, k/m), loss);
-    return loss > GVI__LOST - 1 && D > grain*loss*loss*loss ? GVI__DIVERGES : GVI__GO_ON;
-}
-
-/* The rounding of g is in every D.  Under rows that roll, a P or V that is nothing but rounding is
-   in it too: while another row still falls to a quarter, go on.  A light coordinate: the rounding
-   of others hides most of each correction, and what it does to this one fades slowly, far below. */
-static int gvi__patience(const gvi_stepper *st, const gvi__progress *p)
-{
-    const gvi_real *change = st->in.watch.change, *before = st->in.watch.before,
-                   place = GVI__PLACE*GVI__EPS;
-    if (!gvi__rolls(st)) return 0;
-    for (int row = 0; row < st->in.stages*st->n; ++row)
-        if (change[row] > place*place && change[row] < before[row]/16) return p->used;
-    return p->used > 8 ? -1 : 0;
-}
-
-/* A move of coordinate i that is rounding, whatever its amplitude: of a force of constraint, 32 eps
-   of it, or its last change where that came from the rounding of g, which nearly dependent rows
-   make large.                                                                                 */
-static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m)
+/* What constraints add to the floor of coordinate i, whatever its amplitude, as a length: h^2/m
+   times eps of a force of constraint; and for `moves`, its last change where that came from the
+   rounding of g, which nearly dependent rows make large.                                      */
+static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m,
+                                gvi_real eps, int moves)
 {
     const struct gvi__private *in = &st->in;
     gvi_real push = 0;
     if (!gvi__constrained(st)) return 0;
-    if (i == 0) gvi__constraints_moved(st, in->con.W);
+    if (i == 0 && moves) gvi__constraints_moved(st, in->con.W);
     for (int e = 0; e < st->s; ++e) {
-        const gvi_real force = GVI__NOISE*GVI__EPS*GVI_ABS(h*in->con.force[i*in->R + e])
-                               + in->con.W[i*in->con.C + e]/GVI_ABS(in->con.hw[e]);
+        gvi_real force = eps*GVI_ABS(h*in->con.force[i*in->R + e]);
+        if (moves) force += in->con.W[i*in->con.C + e]/GVI_ABS(in->con.hw[e]);
         push = gvi__larger(GVI_ABS(h)*force/m, push);
     }
     return push;
@@ -8735,7 +8722,7 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, size = (st->s - J->k0)*n;
-    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, 0, 0 };
+    gvi__descent p = { 0, 0, GVI__MAX, 0, 0, GVI__MAX, 0, 0, 0, 0, 0, 0, 0 };
     gvi_real *y = in->newton.y, before = 0, length = 0;
 
     if (grow > 1 && J->k0 == 0) {
@@ -9803,14 +9790,17 @@ static gvi_status gvi__place_evaluate(gvi_stepper *st, const gvi__origin *from, 
     return status;
 }
 
-static int gvi__place_judge(gvi_stepper *st, const struct gvi__progress *p, gvi_real D,
-                            int *patience)
+static int gvi__place_holds(const gvi_stepper *st)
 {
-    GVI__CONSTRAINTS_ON(
-        *patience = gvi__patience(st, p);
-        return gvi__constraint_judge(st, p, D))
-    GVI__MOMENTA(if (st->in.momenta.moves) *patience = st->in.desc.max_iterations)
-    return GVI__GO_ON;
+    GVI__CONSTRAINTS_ON(return 1)
+    return 0;
+}
+
+// is there more than the rows show?
+static int gvi__place_moves(const gvi_stepper *st)
+{
+    GVI__MOMENTA(if (st->in.momenta.moves) return 1)
+    return 0;
 }
 
 /* ---- the end of a step ---- */

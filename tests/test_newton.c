@@ -202,7 +202,7 @@ TEST(a_step_that_fails_leaves_everything_as_it_was)
     gvi_stepper st, copy;
     parameters = (row){ 400, 0, 0, 1 };
     gvi_desc desc = describe(MOST, 6, HESSIANS, GVI_NEWTON);
-    desc.max_iterations = 12;
+    desc.max_iterations = 6;
     begin(&st, &desc, memory, sizeof memory);
     go(&st, (gvi_real)0.001, 1);
     begin(&copy, &desc, spare, sizeof spare);

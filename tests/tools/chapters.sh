@@ -27,6 +27,7 @@ among() { case " $2 " in *" $1 "*) return 0 ;; esac; return 1; }
 closed() {  # chapters: and those that go with them
     out="$*"
     ! among MOMENTA "$out" || among CLOCK "$out" || out="$out CLOCK"
+    ! among MOMENTA "$out" || ! among NEWTON "$out" || among LAGRANGIAN "$out" || out="$out LAGRANGIAN"
     ! among NEWTON "$out" && ! among OUTPUT "$out" || among BOUNDARY "$out" || out="$out BOUNDARY"
     echo $out
 }
