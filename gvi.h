@@ -807,11 +807,10 @@ typedef struct gvi_desc {
     const gvi_effect *effects;
     int               effect_count;    /* to GVI_EFFECTS; 0 only where effects is NULL */
     gvi_formulation   formulation;     /* pinned: no fall-back and no memory for one */
-    gvi_real          tolerance;       /* to eps/65536: iterate to rounding.  Else, below 1, the
+    gvi_real          tolerance;       /* 0 to eps/65536: iterate to rounding.  Else, below 1, the
                                           iteration ends when the change yet to come, as the last
                                           two changes predict it, is below tolerance*|q|: faster,
-                                          but the energy may drift.  No effect where explicit.
-                                          0: eps/65536, with the dial resolution/65536 */
+                                          but the energy may drift.  No effect where explicit */
     int               max_iterations;  /* to 1,000,000.  0: 60                 */
     int               iterations;      /* N: exactly N iterations in every step, for a loop with
                                           a deadline; never Newton.  A step fails unless its last
@@ -9701,7 +9700,6 @@ GVI__COLD gvi_status gvi__place_chosen(struct gvi__private *in, int order, gvi_f
 #else
         wrong = gvi__wrong_in_resolution(d, order);
         in->desc.resolution = gvi__larger(d->resolution, GVI__EPS);
-        if (!(d->tolerance > 0)) in->desc.tolerance = in->desc.resolution*(GVI__ENOUGH/GVI__EPS);
 #endif
     }
 
