@@ -4544,7 +4544,8 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
 
     gvi__copy((size_t)n, at->dldv, base);
     for (int j = 0; j < n; ++j) {
-        const gvi_real was = v[j], push = GVI_ABS(st->in.sized.h*at->f[j])*root;
+        const gvi_real was = v[j], moves = GVI_ABS(st->in.sized.h*at->f[j]),
+                       push = root*gvi__larger(moves, GVI_ABS(base[j]));
         const int rests = !gvi__nonzero(was);
         gvi_real d = 0, next = root*GVI_ABS(was);
         if (rests) next = root*(gvi__norm1(n, v)/(gvi_real)n);
