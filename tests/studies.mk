@@ -2,7 +2,7 @@
 
 .PHONY: headers-quick headers symbols chapters docs-check reference bound float instructions prices usable languages boards sanitize sanitized any_processor \
         ensemble deps-ensemble embedded-page tolerances firmware deps-firmware fuzz fuzz-short fuzz-rolling fuzz-rolling-short fuzz-contact fuzz-contact-short size stats compare everywhere deps-everywhere \
-        cost-dial cost-rebound cost-horizon cost-constraints cost-rolling cost-contact kicks points from-l typed mycost cost-embedded hard theorems mutants coverage covered
+        cost-dial cost-rebound cost-horizon cost-constraints cost-rolling cost-contact kicks points from-l typed mycost cost-embedded hard theorems mutants ablate coverage covered
 
 # -- steps of `make test` and `make check`; each can be run alone
 
@@ -265,6 +265,10 @@ tolerances: | $(FIRST)
 #: mutants      slips put into gvi.h one by one: which of them no test sees (Python; twenty minutes of one core); K="23 59": these alone
 mutants: | $(FIRST)
 	$(Q)mkdir -p $(BUILD) && python3 tests/tools/mutants.py $(BUILD) $(K)
+
+#: ablate       each condition of judgement taken out alone, and which test misses it (Python; an hour of one core); K="3 7": these alone
+ablate: | $(FIRST)
+	$(Q)mkdir -p $(BUILD) && python3 tests/tools/ablate.py $(BUILD) $(K)
 
 # -- hard cases and theorems, measured
 
