@@ -1097,7 +1097,7 @@ typedef struct gvi_stepper {
     int             iterations;       /* in the last step                       */
     gvi_real        resolution;       /* of the last step that was tried, with desc.resolution:
                                          the largest relative error of a coordinate and its velocity
-                                         together, as the curve's modes show it (STEP); the true
+                                         together, as the curve's modes show it (THE DIAL); the true
                                          error is usually far smaller, rarely 10 times as large */
     gvi_real        next;             /* the length that gvi_advance will try; may be set  */
     gvi_counters    counters;
@@ -3434,7 +3434,7 @@ GVI__BODY gvi_real gvi__scale_of(gvi_real base, gvi_real was, gvi_real is)
     return size > GVI__NOTHING ? 1/size : 0;
 }
 
-// the squares at eight points, added up in one order everywhere
+// the squares at eight points, in the order that lanes add them up
 GVI__BODY gvi_real gvi__sum_squares(const gvi_real *z)
 {
     return ((z[0] + z[4]) + (z[1] + z[5])) + ((z[2] + z[6]) + (z[3] + z[7]));
