@@ -3880,17 +3880,6 @@ static void gvi__note(gvi_stepper *st, gvi__progress *p, gvi_real D)
     p->rescale = D > GVI__FAR*GVI__FAR || gvi__is_poor(p);
 }
 
-// may a change be rounding?  Not while a row falls to a quarter, above its last places
-static int gvi__stands_still(const gvi_stepper *st)
-{
-    const gvi_real *change = st->in.watch.change, *before = st->in.watch.before,
-                   place = GVI__PLACE*GVI__EPS;
-    if (gvi__parts(&st->in) && gvi__place_moves(st)) return 0;
-    for (int row = 0; row < st->in.stages*st->n; ++row)
-        if (change[row] > place*place && change[row] < before[row]/16) return 0;
-    return 1;
-}
-
 /* What falls goes on.  What makes no new least is rounding below the floor: below a row's own at
    once, below that of all rows after a while, which as a rule is above what a row can reach.
    What is above it and falls by less than a bit, time after time, does not converge.  Under
@@ -3899,7 +3888,7 @@ static int gvi__rests(gvi_stepper *st, gvi__progress *p, gvi_real h, const gvi__
 {
     const int patience = gvi__parts(&st->in) && gvi__place_holds(st) ? 0 : 1,
               long_since = p->idle > 1 + 3*patience, poor = gvi__is_poor(p),
-              still = p->idle > patience && gvi__stands_still(st);
+              still = p->idle > patience && !(gvi__parts(&st->in) && gvi__place_moves(st));
 
     const int rest = st->in.turns && p->used - p->idle >= GVI__SLOW ? GVI__DIVERGES : GVI__ONCE_MORE;
     if (still && gvi__excess(st, h, stage, 0) <= 1) return rest;
@@ -7018,6 +7007,17 @@ GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int row, int point)
     return lost*A[(row*m + row)*C];
 }
 
+/* Under rows that roll, a P or V that is nothing but rounding is in every D: does another row still
+   fall to a quarter, above its last places?                                                   */
+GVI__CALLED int gvi__a_row_falls(const gvi_stepper *st)
+{
+    const gvi_real *change = st->in.watch.change, *before = st->in.watch.before,
+                   place = GVI__PLACE*GVI__EPS;
+    for (int row = 0; row < st->in.stages*st->n; ++row)
+        if (change[row] > place*place && change[row] < before[row]/16) return 1;
+    return 0;
+}
+
 /* What constraints add to the floor of coordinate i, whatever its amplitude, as a length: h^2/m
    times eps of a force of constraint; and for `moves`, its last change where that came from the
    rounding of g, which nearly dependent rows make large.                                      */
@@ -9931,10 +9931,11 @@ static int gvi__place_holds(const gvi_stepper *st)
     return 0;
 }
 
-// is there more than the rows show?
+// is there more than D shows?
 static int gvi__place_moves(const gvi_stepper *st)
 {
     GVI__MOMENTA(if (st->in.momenta.moves) return 1)
+    GVI__CONSTRAINTS_ON(if (gvi__rolls(st)) return gvi__a_row_falls(st))
     return 0;
 }
 
