@@ -3801,10 +3801,11 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
 
 /* THE FLOOR: what rounding alone changes of a row from one iteration to the next, and how far the
    changes exceed it, the largest of all rows.  A row's own floor is 4 eps of its largest value.
-   With `all` it is 32 eps of the largest amplitude: where the iteration contracts, h^2 dF/dQ between
-   amplitudes is below 1, so the rounding of one coordinate makes no more than that of another: a
+   With `all` it is 32 eps of the largest amplitude: where the iteration contracts, h^2 dF/dQ
+   between amplitudes is below 1, so the rounding of one coordinate makes no more of another: a
    light body midway between two heavy ones.  To both comes what constraints add.              */
-GVI__CALLED gvi_real gvi__excess(const gvi_stepper *st, gvi_real h, const gvi__stage *stage, int all)
+GVI__CALLED gvi_real gvi__excess(const gvi_stepper *st, gvi_real h, const gvi__stage *stage,
+                                 int all)
 {
     const int parts = gvi__parts(&st->in) != 0;
     const gvi_real eps = GVI__EPS*(all ? GVI__NOISE : GVI__PLACE);
@@ -3885,9 +3886,10 @@ static int gvi__rests(gvi_stepper *st, gvi__progress *p, gvi_real h, const gvi__
 {
     const int patience = gvi__parts(&st->in) && gvi__place_holds(st) ? 0 : 1,
               long_since = p->idle > 1 + 3*patience, poor = gvi__is_poor(p),
-              still = p->idle > patience && !(gvi__parts(&st->in) && gvi__place_moves(st));
+              still = p->idle > patience && !(gvi__parts(&st->in) && gvi__place_moves(st)),
+              slow = st->in.turns && p->used - p->idle >= GVI__SLOW,
+              rest = slow ? GVI__DIVERGES : GVI__ONCE_MORE;
 
-    const int rest = st->in.turns && p->used - p->idle >= GVI__SLOW ? GVI__DIVERGES : GVI__ONCE_MORE;
     if (still && gvi__excess(st, h, stage, 0) <= 1) return rest;
     if (!poor) p->poor = 0;
     if (!poor && !long_since) return GVI__GO_ON;
@@ -5009,8 +5011,8 @@ static gvi_real gvi__place_between(gvi_stepper *st)
     return (gvi_real)st->r*sum;
 }
 
-/* Before the effects: V from dL/dv(Q, V) = P.  A new M moved V: of three and more coordinates, where
-   M(q) and F are dearer than rows, Q once more from that V, so that fewer iterations do.      */
+/* Before the effects: V from dL/dv(Q, V) = P.  A new M moved V: of three and more coordinates,
+   where M(q) and F are dearer than rows, Q once more from that V, so that fewer iterations do. */
 static gvi_status gvi__momenta_evaluate(gvi_stepper *st, const gvi__origin *from, gvi_points *at)
 {
     struct gvi__private *in = &st->in;
@@ -5022,7 +5024,8 @@ static gvi_status gvi__momenta_evaluate(gvi_stepper *st, const gvi__origin *from
     in->momenta.has_factor = 1;
     if (!in->desc.mass.velocity) gvi__velocity_rows(st, in->momenta.P, in->work.V);
     else if (GVI__LOOKS(st)) status = gvi__check_rows(st, at, in->work.V, GVI_FAULT_MASS);
-    if (st->n > 2 && in->momenta.mass && !(gvi__parts(in) & (GVI__IN_CLOCK | GVI__IN_CONSTRAINTS))) {
+    const int others = (gvi__parts(in) & (GVI__IN_CLOCK | GVI__IN_CONSTRAINTS)) != 0;
+    if (st->n > 2 && in->momenta.mass && !others) {
         const gvi__stage Q = { in->momenta.T, in->work.V, from->q, in->free.rows + st->n*in->R,
                                in->momenta.ones, 1, in->work.Q, in->watch.scale + st->n,
                                in->momenta.was, NULL, GVI__OF_Q, 1 };

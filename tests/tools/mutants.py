@@ -106,8 +106,8 @@ MUTANTS = [
     ("tolerance api", "if (p->earlier > 0 && D > sure*sure && D > worst*worst*worst*worst*p->earlier)",
               "if (0)"),
     ("why", "in->failed.status = status;\n        in->failed.fault = st->fault;\n        gvi__count", "gvi__count"),
-    ("jumps", "st->in.turns && p->used - p->idle >= GVI__SLOW ? GVI__DIVERGES : GVI__ONCE_MORE;",
-              "GVI__ONCE_MORE;"),
+    ("jumps", "rest = slow ? GVI__DIVERGES : GVI__ONCE_MORE;",
+              "rest = GVI__ONCE_MORE + 0*slow;"),
     # constraints
     ("loops", "d[k] = drops[i] > 0 ? 0 : 1/rest;", "d[k] = drops[i] > 0 && count == 1 ? 0 : 1/rest;"),
     ("loops constraints", "if (!gvi__finite(d[k]) || (depends && !(drops[i] > 0)))", "if (!gvi__finite(d[k]))"),
@@ -145,8 +145,8 @@ MUTANTS = [
     ("newton constraints_newton", "if ((J->square[k*(size + 1)] < 0) != (J->pivot[k] > (gvi_real)k)) sign = -sign;", "if (J->square[k*(size + 1)] < 0) sign = -sign;"),
     # boundary values by the dial, velocities that terms make, projection, multipliers
     ("boundary", "    status = gvi__place_accept(st);\n    in->state = state;", "    in->state = state;"),
-    ("convergence", "if (gvi__parts(&st->in) && gvi__place_moves(st)) return 0;",
-              ""),
+    ("convergence", "!(gvi__parts(&st->in) && gvi__place_moves(st)),",
+              "1;"),
     ("constraints", "H[i*n + j] = H[j*n + i] = H[i*n + j]/2 + H[j*n + i]/2;", "{ }"),
     ("constraints", "least = in->adds_p ? 16*root : GVI_SQRT(GVI__EPS*root);", "least = GVI_SQRT(GVI__EPS*root);"),
     ("constraints", "const gvi_real both = gvi__larger(size, last);", "const gvi_real both = size;"),
