@@ -146,7 +146,7 @@ MUTANTS = [
     # boundary values by the dial, velocities that terms make, projection, multipliers
     ("boundary", "    status = gvi__place_accept(st);\n    in->state = state;", "    in->state = state;"),
     ("convergence", "!(gvi__parts(&st->in) && gvi__place_moves(st)),",
-              "1;"),
+              "1,"),
     ("constraints", "H[i*n + j] = H[j*n + i] = H[i*n + j]/2 + H[j*n + i]/2;", "{ }"),
     ("constraints", "least = in->adds_p ? 16*root : GVI_SQRT(GVI__EPS*root);", "least = GVI_SQRT(GVI__EPS*root);"),
     ("constraints", "const gvi_real both = gvi__larger(size, last);", "const gvi_real both = size;"),
