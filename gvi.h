@@ -3280,13 +3280,14 @@ static void gvi__place_before_rows(gvi_stepper *st, const struct gvi__stage *sta
 static void gvi__place_behind_rows(gvi_stepper *st, const struct gvi__stage *stage, gvi_real sum);
 static void gvi__place_last(gvi_stepper *st, const gvi__origin *from,
                             const struct gvi__stage *stage);
-static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m, gvi_real eps);
+static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m,
+                                gvi_real eps, int moves);
 #else
 #define gvi__place_predictor(st, alpha, beta) ((void)(alpha))
 #define gvi__place_before_rows(st, stage) ((void)0)
 #define gvi__place_behind_rows(st, stage, sum) ((void)0)
 #define gvi__place_last(st, from, stage) ((void)0)
-#define gvi__place_push(st, h, i, m, eps) 0
+#define gvi__place_push(st, h, i, m, eps, moves) ((void)(moves), (gvi_real)0)
 #endif
 
 /* PLACES of the solvers: in place of the fixed point, 1 if *status is the result; where that has
@@ -3803,7 +3804,8 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
    changes exceed it, the largest of all rows.  A row's own floor is 4 eps of its largest value.
    With `all` it is 32 eps of the largest amplitude: where the iteration contracts, h^2 dF/dQ
    between amplitudes is below 1, so the rounding of one coordinate makes no more of another: a
-   light body midway between two heavy ones.  To both comes what constraints add.              */
+   light body midway between two heavy ones.  To both comes what constraints add: to Q the rounding
+   of g as well, which a velocity must not show.                                               */
 GVI__CALLED gvi_real gvi__excess(const gvi_stepper *st, gvi_real h, const gvi__stage *stage,
                                  int all)
 {
@@ -3819,9 +3821,10 @@ GVI__CALLED gvi_real gvi__excess(const gvi_stepper *st, gvi_real h, const gvi__s
 
     for (const gvi__stage *y = stage; y < stage + st->in.stages; ++y)
         for (int i = 0; i < st->n && !y->quiet; ++i) {
+            const int moves = all && y->of == GVI__OF_Q;
             const gvi_real m = gvi__inertia(st, i), unit = gvi__amplitude_of(st, h, y, m),
                            size = all ? largest : unit*gvi__size_of_row(st, y, i),
-                           push = parts ? gvi__place_push(st, h, i, m, eps) : 0;
+                           push = parts ? gvi__place_push(st, h, i, m, eps, moves) : 0;
             if (!(y->scale[i] > 0) || !(y->change[i] > 0)) continue;
             const gvi_real change = unit*(GVI_SQRT(y->change[i])/y->scale[i]);
             excess = gvi__larger(change/(eps*size + GVI_SQRT(m)*push), excess);
@@ -6912,7 +6915,7 @@ static void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const gvi_r
 
     gvi__zero((size_t)(m*R), rho);
     for (int a = 0; a < m; ++a) {
-        gvi_real *g = rho + m*R + a*C;
+        gvi_real *g = rho + m*R + a*C;             // gvi__constraints_moved reads it
         gvi__copy((size_t)s, in->con.g + a*C + 1, g);
         for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
             gvi__subtract_at(C, s, in->con.G + (a*n + i)*C + 1, moved + i*C, g);
@@ -6955,6 +6958,21 @@ static void gvi__place_behind_rows(gvi_stepper *st, const gvi__stage *stage, gvi
     st->in.con.linear |=
         GVI__DIG > FLT_MANT_DIG && st->in.con.made > 0 && sum < GVI__EPS*GVI_SQRT(GVI__EPS);
     gvi__constraint_rows(st, stage, stage[st->in.con.Q].source);
+}
+
+// |G|'|rho| of lambda's last change, or 0 if that was not all rounding, 8 eps of the known terms
+GVI__CALLED void gvi__constraints_moved(const gvi_stepper *st, gvi_real *moved)
+{
+    const struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m, R = in->R, C = in->con.C;
+    gvi__zero((size_t)(n*C), moved);
+    for (int a = 0; a < m; ++a)
+        for (int k = 1; k <= st->s; ++k) {
+            const gvi_real terms = gvi__terms(st, C, in->con.t[k], in->con.at + k, in->con.G + k,
+                                              in->con.g + m*C + k, a);
+            if (!(GVI_ABS(in->con.rho[m*R + a*C + k - 1]) <= 8*GVI__EPS*terms)) return;
+        }
+    gvi__force_sizes(st, in->con.rho, C, moved);
 }
 
 // E takes forces and lambda of the last step to alpha + beta d_e
@@ -7004,13 +7022,20 @@ GVI__CALLED int gvi__a_row_falls(const gvi_stepper *st)
 }
 
 /* What constraints add to the floor of coordinate i, whatever its amplitude, as a length: h^2/m
-   times eps of their force.                                                                   */
-static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m, gvi_real eps)
+   times eps of a force of constraint; and for `moves`, its last change where that came from the
+   rounding of g, which nearly dependent rows make large.                                      */
+static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m,
+                                gvi_real eps, int moves)
 {
+    const struct gvi__private *in = &st->in;
     gvi_real push = 0;
     if (!gvi__constrained(st)) return 0;
-    for (int e = 0; e < st->s; ++e)
-        push = gvi__larger(eps*(h*(h*GVI_ABS(st->in.con.force[i*st->in.R + e])))/m, push);
+    if (i == 0 && moves) gvi__constraints_moved(st, in->con.W);
+    for (int e = 0; e < st->s; ++e) {
+        gvi_real force = eps*GVI_ABS(h*in->con.force[i*in->R + e]);
+        if (moves) force += in->con.W[i*in->con.C + e]/GVI_ABS(in->con.hw[e]);
+        push = gvi__larger(GVI_ABS(h)*force/m, push);
+    }
     return push;
 }
 
