@@ -1,4 +1,4 @@
-/* gvi.h - v0.3.0 - Galerkin variational integrators for mechanical systems
+/* gvi.h - v0.4.0 - Galerkin variational integrators for mechanical systems
    SPDX-License-Identifier: MIT OR Unlicense              (texts at the end)
 
    Computes how mechanical systems move: M q'' = -dV/dq + f, or any Lagrangian
@@ -327,7 +327,7 @@ GVI__MACROS(push_macro)
 #include <math.h>
 #endif
 
-#define GVI_VERSION "0.3.0"
+#define GVI_VERSION "0.4.0"
 
 #ifndef GVI_REAL
 #define GVI_REAL double
