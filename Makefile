@@ -24,7 +24,7 @@ CMOCKA_LIBS   = $$(pkg-config --libs cmocka 2>/dev/null || echo -lcmocka)
 
 TESTS = $(sort $(basename $(notdir $(wildcard tests/test_*.c))))
 # These in float and in long double as well, and these compiled for size.
-TYPED = $(filter $(addprefix test_,constraints constraints_newton rolling loops resolution regressions effects interpolation jumps lu uncoupled mass newton oracle points quadrature padding tangent adjoint event body damped lagrangian tolerance no_trace why),$(TESTS))
+TYPED = $(filter $(addprefix test_,constraints constraints_newton rolling loops resolution regressions effects interpolation jumps lu uncoupled mass newton oracle points quadrature padding tangent adjoint event contact body damped lagrangian tolerance no_trace why),$(TESTS))
 SMALL = $(filter $(addprefix test_,constraints loops regressions uncoupled mass newton points padding tolerance no_trace why),$(TESTS))
 # Left out: test_constraints in long double, whose code test_constraints_newton and test_loops run in it too; for size in
 # float, which changes no loop that size or float alone does not, all but rows and states that must not change.
@@ -43,7 +43,7 @@ VALGRIND     = test_api test_lu test_interpolation 07_driven_damped 36_building_
 # `make test` is for a person, two minutes; `make check` is the rest, twenty.
 TEST_STEPS  = $(TESTS) $(EXAMPLES) docs-check symbols headers-quick
 CHECK_STEPS = headers $(VARIANTS) $(EXAMPLES:%=alone-%) any_processor chapters bound float instructions prices ensemble usable languages boards \
-              $(VALGRIND:%=valgrind-%) sanitize hard-long-float hard-corners-float theorem-curve firmware fuzz-short fuzz-rolling-short
+              $(VALGRIND:%=valgrind-%) sanitize hard-long-float hard-corners-float theorem-curve firmware fuzz-short fuzz-rolling-short fuzz-contact-short
 
 STEP = $(Q)sh tests/tools/step.sh $(BUILD)
 SUM  = $(STEP) --sum
@@ -134,10 +134,10 @@ unit: $(PROGRAMS)
 PICTURES = $(if $(filter figures,$(MAKECMDGOALS)),docs/img,$(BUILD)/pictures)
 
 #: figures      makes the pictures in docs/img/ again, scenes included; theorems: make theorems PICTURES=docs/img
-figures: scenes $(addprefix $(BUILD)/examples/,05_outer_solar_system 18_close_encounters 34_low_thrust 35_swing_up 19_section 28_racket 32_ensemble 21_rods 23_engine)
+figures: scenes $(addprefix $(BUILD)/examples/,05_outer_solar_system 18_close_encounters 34_low_thrust 35_swing_up 19_section 28_racket 32_ensemble 21_rods 23_engine 49_lift_off 51_rocking_block)
 	$(Q)mkdir -p docs/img
 	$(Q)$(BUILD)/examples/05_outer_solar_system 200000 200 8 docs/img
-	$(Q)set -e; for e in 34_low_thrust 35_swing_up 19_section 28_racket 21_rods 23_engine; do \
+	$(Q)set -e; for e in 34_low_thrust 35_swing_up 19_section 28_racket 21_rods 23_engine 49_lift_off 51_rocking_block; do \
 	    $(BUILD)/examples/$$e --svg docs/img/$${e#*_}.svg; done
 	$(Q)$(BUILD)/examples/18_close_encounters --svg docs/img/three_ways.svg
 	$(Q)$(BUILD)/examples/32_ensemble 120 $(BUILD)/ensemble.csv docs/img/ensemble.svg

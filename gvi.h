@@ -137,7 +137,8 @@
               settle: its changes then count as rounding below 32 eps of the
               largest |q_i| sqrt(M_ii).
 
-   gvi.h does not: treat contact, run in parallel, or read or write anything.
+   gvi.h does not: find contacts (examples/tools/contact.h does), run in parallel, or read or
+   write anything.
 
 
    OPTIONS
@@ -384,6 +385,7 @@ GVI__MACROS(push_macro)
 #define gvi_energy GVI__LINKED(gvi_energy)
 #define gvi_multipliers GVI__LINKED(gvi_multipliers)
 #define gvi_curve GVI__LINKED(gvi_curve)
+#define gvi_curve_multipliers GVI__LINKED(gvi_curve_multipliers)
 #define gvi_state_at GVI__LINKED(gvi_state_at)
 #define gvi_action GVI__LINKED(gvi_action)
 #define gvi_discrete_lagrangian GVI__LINKED(gvi_discrete_lagrangian)
@@ -1117,7 +1119,8 @@ typedef struct gvi_discrete {
 GVI_DEF size_t     gvi_size(const gvi_desc *desc);
 GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size);
 
-/* These start at time t.
+/* These start at time t; where that is st->t, st->t_low stays, so that a loop which corrects the
+   state at each step loses no time.
      gvi_start                  starts from configuration and velocity
      gvi_start_momentum         starts from configuration and momentum
      gvi_start_configurations   starts from q0 at t and q1 at t + h (solves the boundary-value
@@ -1126,8 +1129,9 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
    compare its jacobian and rate with differences of g next to (t, q).  An entry that is off by more
    than 1/512 of itself, and more than rounding hides (in float most of 1 %), is refused:
    GVI_E_ARGUMENT, its row in fault.coordinate.  Later steps do not look again.
-   GVI_E_CONSTRAINT where q or v is off a constraint: q by more than 4096 roundings of g, v if the
-   part that G v + dg/dt = 0 removes has more than (4096 eps)^2 of the kinetic energy.         */
+   GVI_E_CONSTRAINT where q or v is off a constraint: q by more than 4096 roundings of g's
+   terms and 4 of the largest |q_i| sqrt(M_ii), v if the part that G v + dg/dt = 0 removes has more
+   than (4096 eps)^2 of the kinetic energy.                                                    */
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v);
 GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                       const gvi_real *p);
@@ -1199,10 +1203,18 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda);
    GVI_E_FORMULATION.
      gvi_curve      the polynomial at tau in [0,1] and its derivative, error O(h^(min(s,u-s+1)+1))
                     and one order less; with a clock tau is its own time, and v still dq/dt
+     gvi_curve_multipliers
+                    the polynomial through the multipliers of the step at Lobatto's points, error
+                    O(h^s); laid out as by gvi_multipliers, and at a tenth of its cost.  Not of
+                    explicit steps, which keep none, or once a row has been switched:
+                    GVI_E_FORMULATION
      gvi_state_at   the state at time t (a time, not tau), at the full order, by a partial step from
                     the nearer end; up to 2 ulp outside the step, t counts as its end
      gvi_action     the quadrature of L; like gvi_state_at with the effects that are on now   */
 GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v);
+#ifndef GVI_NO_CONSTRAINTS
+GVI_DEF gvi_status gvi_curve_multipliers(gvi_stepper *st, gvi_real tau, gvi_real *lambda);
+#endif
 #ifndef GVI_NO_OUTPUT
 GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v, gvi_real *p);
 GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
@@ -4251,8 +4263,9 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, gvi_real *v)
     gvi__copy(n, in->step.p, in->state.p);
     gvi__zero(n, in->state.q_low);
     gvi__zero(n, in->state.p_low);
+    if (!in->started || gvi__nonzero(t - st->t)) st->t_low = 0;
     st->t = st->t0 = t;
-    st->h = st->t_low = st->resolution = st->next = 0;
+    st->h = st->resolution = st->next = 0;
     in->started = 1;
     in->stepped = in->kept = in->has_velocity = 0;
     in->predictor.ratio = 0;
@@ -7021,21 +7034,36 @@ static int gvi__beyond_rounding(gvi_real missed, gvi_real bend, gvi_real size)
     return bend > GVI__SOLVED*GVI__EPS*size && missed*bend > GVI__GRAIN*GVI__EPS*size*size;
 }
 
+// path += h M^-1 |G|'|z|: how far each impulse alone would move the coordinates, at one point
+static void gvi__add_path(const gvi_stepper *st, gvi_real h, const gvi_real *z, gvi_real *push,
+                          gvi_real *path)
+{
+    const int n = st->n;
+    gvi__zero((size_t)n, push);
+    for (int a = 0; a < st->in.con.m; ++a)
+        for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
+            push[i] += GVI_ABS(z[a]*st->in.con.G1[a*n + i]);
+    gvi__over_mass(st, push, 1, 1);
+    for (int i = 0; i < n; ++i) path[i] += GVI_ABS(h*push[i]);
+}
+
 /* RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, from a simplified Newton iteration.  A
    row is rounding if it exceeds by a quarter what its last correction, and the change of G along
-   it, should have left.  An error four times the least so far is divergence.                  */
+   it, should have left; or by what q1 was added up from, q0 and the paths, which cancel where q1
+   is near 0.  An error four times the least so far is divergence.                             */
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     if (!gvi__constrained(st)) return GVI_OK;
     gvi_real before = 0, least = GVI__MAX, *Q = in->work.Q, *z = in->con.rho, *left = in->con.y,
-             *d = in->con.W, *unit = d + n, *g = in->con.g,
+             *d = in->con.W, *unit = d + n, *g = in->con.g, *path = in->answer,
              *G = in->con.G1 + m*n;                  // G0 is before it
     const gvi_real t = from->t + (from->t_low + h);
     gvi_status status = gvi__constraints_at(st, from->t, from->q, NULL, NULL, in->con.drops);
     gvi__zero((size_t)n, in->step.p_low);
     in->con.again = 0;
+    for (int i = 0; i < n; ++i) path[i] = GVI_ABS(from->q[i]) + GVI_ABS(in->step.q[i]);
     for (int k = 0; ; ++k) {
         gvi_real size = 0;
         int finite = 1;
@@ -7044,7 +7072,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         if (status != GVI_OK) return status;
         if (k == 0 && !in->con.settled) (void)gvi__find_columns(st, 1, 1, G);
         for (int a = 0; a < m; ++a) {
-            const gvi_real terms = gvi__terms(st, 1, t, Q, G, g + m, a);
+            const gvi_real terms = gvi__terms(st, 1, t, path, G, g + m, a);
             gvi_real change = -z[a], all = 0;
             for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1)) {
                 change += h*(G[a*n + i]*d[i]);
@@ -7069,6 +7097,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         before = size;
         for (int a = 0; a < m; ++a) z[a] = -g[a]/h;
         gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
+        gvi__add_path(st, h, z, d, path);
         gvi__zero((size_t)n, d);
         gvi__add_force(st, z, d);
         gvi__add_scaled(n, 1, d, in->step.p, in->step.p);
@@ -7082,11 +7111,39 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
 
 /* ---- at the end of a step, and at the start ---- */
 
-/* Is each g_a within 4096 roundings, of its known terms or as measured?  To measure, take 1/4096 of
-   Newton's correction, forwards and back, and less: if g_a follows both, to a quarter of the
-   change that G at both ends tells, its rounding is below that, and g_a is none.  Of a row that is
-   left out, what those before it do not explain (A = L D L': L^-1 g) may be a contradiction, which
-   no move shows.  In a step (`start` 0) the others are as exact as its iteration made them.    */
+// the largest |q_i| sqrt(m_i), 1/m_i = (M^-1)_ii: what a coordinate near 0 may be the difference of
+GVI__COLD gvi_real gvi__amplitude(const gvi_stepper *st, const gvi_real *q, gvi_real *column)
+{
+    const int n = st->n;
+    gvi_real largest = 0;
+    for (int i = 0; i < n; ++i) {
+        gvi__zero((size_t)n, column);
+        column[i] = 1;
+        gvi__over_inertia(st, column, 1, 1);
+        const gvi_real size = GVI_ABS(q[i])/GVI_SQRT(GVI_ABS(column[i]));
+        if (gvi__finite(size)) largest = gvi__larger(size, largest);
+    }
+    return largest;
+}
+
+/* Is g_a, or what is left of a row that is left out, more than 4096 roundings of its known terms,
+   and 4 of the amplitude along the row?  That is < 0 as long as it is not known.              */
+GVI__COLD int gvi__doubtful(const gvi_stepper *st, const gvi_real *q, int a, gvi_real left,
+                            gvi_real terms, gvi_real *amplitude)
+{
+    const gvi_real dropped = st->in.con.drops[st->in.con.m + a];
+    if (GVI_ABS(left) <= GVI__HELD*GVI__EPS*terms) return 0;
+    if (*amplitude < 0) *amplitude = gvi__amplitude(st, q, st->in.con.W);
+    const gvi_real entry = dropped > 0 ? dropped : gvi__entry(st, 1, a, st->in.con.gram1);
+    return !(GVI_ABS(left) <= GVI__PLACE*GVI__EPS**amplitude*GVI_SQRT(GVI_ABS(entry)));
+}
+
+/* Is each g_a within 4096 roundings, as far as these are known, or as measured?  To measure, take
+   1/4096 of Newton's correction, forwards and back, and less: if g_a follows both, to a quarter of
+   the change that G at both ends tells, its rounding is below that, and g_a is none.  Of a row that
+   is left out, what those before it do not explain (A = L D L': L^-1 g) may be a contradiction,
+   which no move shows.  In a step (`start` 0) the others are as exact as its iteration made
+   them.                                                                                       */
 GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                     const gvi_real *p, gvi_real *v, int start)
 {
@@ -7094,7 +7151,7 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
     const int n = st->n, m = in->con.m;
     const gvi_real *A = in->con.gram1;
     gvi_real *g = in->con.g, *was = in->con.rho, *doubt = was + m, *ahead = in->con.y,
-             *d = in->con.W, *next = d + n, *G = in->con.G1;
+             *d = in->con.W, *next = d + n, *G = in->con.G1, amplitude = -1;
     int off = -1, refused = -1;
 
     for (int a = 0; a < m; ++a) {
@@ -7105,8 +7162,8 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
             ahead[a] -= A[a*m + l]*ahead[l];
             if (left_out) terms += GVI_ABS(A[a*m + l])*gvi__terms(st, 1, t, q, G, g + m, l);
         }
-        doubt[a] = (gvi_real)((start || left_out) && !(GVI_ABS(left_out ? ahead[a] : g[a])
-                                                       <= GVI__HELD*GVI__EPS*terms));
+        doubt[a] = (gvi_real)((start || left_out)
+            && gvi__doubtful(st, q, a, left_out ? ahead[a] : g[a], terms, &amplitude));
         if (doubt[a] > 0) off = a;
         if (doubt[a] > 0 && left_out) refused = a;
     }
@@ -7209,7 +7266,8 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
         status = gvi__report_row(st, GVI_E_SINGULAR, row, GVI_FAULT_NONE);
 
     if (status == GVI_OK) status = gvi__check_rank(st, start ? 0 : in->con.margin);
-    if ((start || redundant) && status == GVI_OK) status = gvi__fulfilled(st, t, q, p, v, start);
+    if ((start || redundant) && status == GVI_OK)
+        status = gvi__fulfilled(st, t, q, p, v, start);
     if (status != GVI_OK) return status;
     gvi__zero((size_t)m, in->con.y);
     for (int pass = 0; pass < passes; ++pass) {
@@ -7723,6 +7781,36 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     return gvi__done(st, GVI_OK);
 }
 
+GVI_DEF gvi_status gvi_curve_multipliers(gvi_stepper *st, gvi_real tau, gvi_real *lambda)
+{
+    const gvi_status status = gvi__stepped(st);
+    if (status != GVI_OK) return status;
+    if (!lambda) return gvi__refuse_call(st, "lambda is NULL");
+    if (!(tau >= 0 && tau <= 1)) return gvi__refuse_call(st, "tau is not in [0,1]");
+    const struct gvi__private *in = &st->in;
+    if (in->con.kept < 2) {
+        gvi__report_status(st, GVI_E_FORMULATION);
+        st->fault.argument = "gvi_curve_multipliers: the last step had no constraint, rows were "
+                             "switched since, or it was explicit";
+        return gvi__done(st, GVI_E_FORMULATION);
+    }
+
+    const int s = st->s, C = in->con.C;
+    const gvi_real *node = in->con.d, *row = in->con.last + st->n*C;
+    gvi_real *weight = in->set_up, *basis = weight + C;
+    gvi_barycentric(s + 1, node, weight);
+    gvi_basis(s + 1, node, weight, tau, basis);
+    for (int e = 0; e < in->desc.effect_count; ++e)
+        for (int a = 0; a < in->desc.effects[e].rows; ++a) {
+            gvi_real sum = 0;
+            const int on = (int)(gvi__constraints_on(st) >> e & 1u);
+            for (int k = 0; on && k <= s; ++k) sum -= basis[k]*row[k];
+            *lambda++ = sum;
+            row += on*C;
+        }
+    return gvi__done(st, GVI_OK);
+}
+
 /* v := v + M^-1 G'z such that G v + dg/dt = 0, with the last G; once more for the rounding of that.
    Returns z'(G v + dg/dt), which is the square of the way by M.                               */
 static gvi_real gvi__project_velocity(gvi_stepper *st, gvi_real *v)
@@ -7751,6 +7839,13 @@ static gvi_real gvi__project_velocity(gvi_stepper *st, gvi_real *v)
     return way;
 }
 
+// q + e; 0 where what is left of a move to it is rounding
+static gvi_real gvi__arrived(const gvi_stepper *st, gvi_real q, gvi_real e)
+{
+    const gvi_real rounding = GVI__GRAIN*(gvi_real)st->in.con.m*GVI__EPS;
+    return GVI_ABS(q + e) <= rounding*GVI_ABS(q) ? 0 : q + e;
+}
+
 /* The iteration q' = q + e, e = M^-1 G'z with g + G(e_new - e) = 0: (G M^-1 G') z = G e - g at the
    last q'.  So e is normal to the constraints where it ends, and e'M e is z'(G e - g).  What moves
    along the constraints is damped, by `share`, where changes grow; g is taken to 0 in any case. */
@@ -7767,7 +7862,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     gvi_real *e = in->step.q, *f = in->step.p, *next = in->answer, *d = next + n, *u = d + n,
-             *push = in->point, *z = in->con.rho, *r = z + m, *back = r + m,
+             *push = in->point, *path = push + 2*n, *z = in->con.rho, *r = z + m, *back = r + m,
              *drops = in->con.drops + m, change = GVI__MAX, before = 0, size = 0, share = 1;
     // what a d2L/dv2 by differences leaves of a change
     const gvi_real root = GVI_SQRT(GVI__EPS),
@@ -7786,7 +7881,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         for (int a = 0; a < m && k > 0 && status == GVI_OK; ++a)
             noise += GVI__GRAIN*GVI_ABS(z[a])
                      *(GVI_ABS(in->con.g[a])
-                       + GVI__EPS*gvi__terms(st, 1, t, next, in->con.G1, in->con.g + m, a));
+                       + GVI__EPS*gvi__terms(st, 1, t, path, in->con.G1, in->con.g + m, a));
 
         if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK
             && change <= least*size + noise) {
@@ -7818,7 +7913,8 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
             size += (GVI_ABS(push[i]) + GVI_ABS(f[i]))*(GVI_ABS(d[i]) + GVI_ABS(e[i]));
             f[i] = push[i] + (1 - share)*f[i];
             e[i] = d[i] + (1 - share)*e[i];
-            next[i] = q[i] + e[i];
+            next[i] = gvi__arrived(st, q[i], e[i]);
+            path[i] = GVI_ABS(q[i]) + GVI_ABS(e[i]);
         }
         if (change > before && share > (gvi_real)0.02) share /= 2;
     }
@@ -7841,7 +7937,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         st->fault.argument = "gvi_project: a row (fault.coordinate of fault.effect) contradicts "
                              "others";
     if (status != GVI_OK) return st->status = status;
-    gvi__add_scaled(n, 1, e, q, q);
+    for (int i = 0; i < n; ++i) q[i] = gvi__arrived(st, q[i], e[i]);
     gvi__copy((size_t)n, u, v);
     for (int k = 0; k < 2; ++k) moved[k] = GVI_SQRT(GVI_ABS(far[k]));
     return gvi__report_status(st, GVI_OK);

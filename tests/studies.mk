@@ -1,8 +1,8 @@
 # studies.mk - what Makefile includes: long checks, measurements, pictures.  `make help-all` lists them.
 
 .PHONY: headers-quick headers symbols chapters docs-check reference bound float instructions prices usable languages boards sanitize sanitized any_processor \
-        ensemble deps-ensemble embedded-page tolerances firmware deps-firmware fuzz fuzz-short fuzz-rolling fuzz-rolling-short size stats compare everywhere deps-everywhere \
-        cost-dial cost-rebound cost-horizon cost-constraints cost-rolling kicks points from-l mycost cost-embedded hard theorems mutants coverage covered
+        ensemble deps-ensemble embedded-page tolerances firmware deps-firmware fuzz fuzz-short fuzz-rolling fuzz-rolling-short fuzz-contact fuzz-contact-short size stats compare everywhere deps-everywhere \
+        cost-dial cost-rebound cost-horizon cost-constraints cost-rolling cost-contact kicks points from-l mycost cost-embedded hard theorems mutants coverage covered
 
 # -- steps of `make test` and `make check`; each can be run alone
 
@@ -81,6 +81,10 @@ fuzz fuzz-short: | $(FIRST)
 #: fuzz-rolling 200,000 random rolling scenes against an index-1 reference (twenty minutes); SEED=2: others
 fuzz-rolling fuzz-rolling-short: $(BUILD)/hard/rolling_scenes
 	$(STEP) $@ $< $(if $(findstring short,$@),2000,200000) $(SEED)
+
+#: fuzz-contact 2,000,000 steps of random contact scenes, each judged from outside (five minutes); SEED=2: others
+fuzz-contact fuzz-contact-short: $(BUILD)/hard/contact_scenes
+	$(STEP) $@ $< $(if $(findstring short,$@),100000,2000000) $(SEED)
 
 #: deps-firmware installs what firmware, size and boards need: compilers for Arm, RISC-V and AVR, qemu, simavr
 deps-firmware: | $(filter deps deps-check,$(MAKECMDGOALS))
@@ -199,6 +203,9 @@ from-l: tests/cost/from_l.c $(BUILD)/gvi-double.o
 
 #: cost-constraints rods and a top with constraints, against RATTLE's compositions and DOP853; chains to 500 rods, 216 molecules (two minutes)
 #: cost-rolling a rolling disc: gvi.h, DOP853 and the midpoint rule on reduced equations (half a minute)
+#: cost-contact a step beside a contact that is open; a ball on a wavy table by contact.h, event.h and a stiff spring (ten seconds)
+cost-contact: $(BUILD)/cost/contact
+	$(Q)$<
 kicks points: %: $(BUILD)/cost/%
 	$(Q)$< $(COST_ARGS)
 cost-rolling: $(BUILD)/cost/rolling
@@ -221,7 +228,7 @@ embedded-page:
 $(BUILD)/cost/%.o: tests/cost/%.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c99 $(WARNINGS) -Wno-double-promotion -Wno-unused-parameter -I. -Iexamples -Itests $(CPPFLAGS) -MMD -MP -MF $@.d -MT $@ $(COST_CFLAGS) -c $< -o $@
-$(BUILD)/cost/constraints $(BUILD)/cost/points $(BUILD)/cost/rolling: %: %.o
+$(BUILD)/cost/constraints $(BUILD)/cost/points $(BUILD)/cost/rolling $(BUILD)/cost/contact: %: %.o
 	$(Q)$(CC) $< -o $@ $(LDLIBS)
 $(BUILD)/cost/kicks $(BUILD)/cost/cost: %: %.o $(addprefix $(BUILD)/cost/,problems.o baselines.o gvi_run.o)
 	$(Q)$(CC) $^ -o $@ $(LDLIBS)

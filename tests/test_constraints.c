@@ -1248,4 +1248,63 @@ TEST(a_start_off_the_end_of_a_wire_is_refused)
     }
 }
 
+AT_POINTS(slider_crank)                     /* rods of 1 and 5/2, and the slider's row q_3 = 0, which has no other term */
+{
+    const int S = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real *q = x->q + k, X = q[0], Y = q[S], a = q[2*S] - X, b = q[3*S] - Y;
+        real *G = x->jacobian + k, *g = x->g + k;
+        g[0] = (X*X + Y*Y - 1)/2, g[S] = (a*a + b*b - R(6.25))/2, g[2*S] = q[3*S];
+        G[0] = X, G[S] = Y, G[4*S] = -a, G[5*S] = -b, G[6*S] = a, G[7*S] = b, G[11*S] = 1;
+    }
+    return (void)user, 0;
+}
+
+GVI_EACH(crank_weight, 2, f) { x->f[1] -= 2; }
+
+/* What q_3 = 0 is added up from are the pushes of its row and of the rod, which cancel */
+TEST(a_row_whose_only_term_is_a_coordinate_at_0_holds_to_rounding)
+{
+    static const real m[] = { 2, 2, 1, 1 }, hs[] = { R(0.1), R(0.025), R(0.003) };
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = crank_weight },
+                                        { .kind = GVI_CONSTRAINT, .points = slider_crank, .rows = 3 } };
+    for (int run = 0; run < 4*COUNT(hs); ++run) {
+        const int s = 1 + run/COUNT(hs);
+        const gvi_desc desc = { .n = 4, .degree = s, .rule = { .kind = s == 1 ? GVI_LOBATTO : GVI_GAUSS }, .effects = scene,
+                                .effect_count = 2, .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = m } };
+        gvi_stepper st = new_stepper(&desc), other = new_stepper(&desc);
+        real q[4] = { 0, 1, sqrt(R(5.25)), 0 }, v[4] = { R(-1.5), 0, R(-1.5), 0 }, moved[2];
+        const real reach = q[2];                            // the slider's m is 1
+        assert_ok(gvi_start(&st, 0, q, v));
+        while (st.t < 3) assert_ok(gvi_step(&st, hs[run % COUNT(hs)]));
+        assert_close(st.q[3], 0, 16*EPS*EPS + 16*EPS*hs[run % COUNT(hs)]);
+        assert_ok(gvi_start_momentum(&other, st.t, st.q, st.p));
+
+        for (int k = 0; k < 4; ++k) q[k] = st.q[k], v[k] = st.p[k]/m[k];
+        assert_ok(gvi_project(&other, 0, q, v, moved));
+        assert_between(0, moved[0], 64*EPS);
+        assert_ok(gvi_start(&other, 0, q, v));
+        q[3] = 3*EPS*reach;                                 // within 4 roundings of the largest coordinate; and not
+        assert_ok(gvi_start(&other, 0, q, v));
+        q[3] = 12*EPS*reach;
+        assert_status(gvi_start(&other, 0, q, v), GVI_E_CONSTRAINT);
+    }
+}
+
+/* gvi_start at st.t: a loop that corrects the state at each step loses no time, where t + h rounds h away by half */
+TEST(a_start_where_the_stepper_is_keeps_the_low_word_of_t)
+{
+    const gvi_desc desc = { .n = 1, .degree = 2 };
+    const real h = 1/(real)1024, far = h*R(0.375)/EPS;
+    gvi_stepper st = new_motion(&desc, far, (real[]){ 0 }, (real[]){ 1 });
+    for (int k = 1; k <= 1000; ++k) {
+        real q = st.q[0], v = 1;
+        assert_ok(gvi_step(&st, h));
+        assert_ok(gvi_start(&st, st.t, &q, &v));
+        assert_true((st.t - far) + st.t_low == (real)k*h);
+    }
+    assert_ok(gvi_start(&st, far, (real[]){ 0 }, (real[]){ 1 }));        // another time: a motion of its own
+    assert_true(st.t_low == 0);
+}
+
 RUN_TESTS(NULL, NULL)

@@ -345,4 +345,52 @@ TEST(steps_are_symplectic)
     assert_between(1e-3L, change_of_form(FRICTION, 2, GVI_GAUSS, 2), 1);       // it can fail
 }
 
+GVI_EACH(downwards, 2, f) { x->f[1] -= 1; }
+GVI_EACH(unit_rod, 2, rows(1))
+{
+    x->g[0] = (x->q[0]*x->q[0] + x->q[1]*x->q[1] - 1)/2;
+    x->jacobian[0] = x->q[0], x->jacobian[1] = x->q[1];
+}
+
+/* y of a pendulum of length 1 at time t, from the side with v_y = -1/2, in its angle by Runge and Kutta */
+static real height_at(real t)
+{
+    const int steps = 2000;
+    const real h = t/steps;
+    real a = 0, w = R(-0.5);
+    for (int k = 0; k < steps; ++k) {
+        const real k1 = -cos(a), w2 = w + h*k1/2, k2 = -cos(a + h*w/2), w3 = w + h*k2/2, k3 = -cos(a + h*w2/2),
+                   w4 = w + h*k3, k4 = -cos(a + h*w3);
+        a += h*(w + 2*w2 + 2*w3 + w4)/6;
+        w += h*(k1 + 2*k2 + 2*k3 + k4)/6;
+    }
+    return sin(a);
+}
+
+/* lambda = -v^2 + y = 3 y - 1/4 */
+TEST(multipliers_within_a_step_have_order_s)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = downwards },
+                                        { .kind = GVI_CONSTRAINT, .points = unit_rod, .rows = 1 } };
+    for (int run = 0; run < 2*5*3; ++run) {
+        const int s = 1 + run/2 % 5;
+        const real at[] = { 0, R(0.2), 1 }, tau = at[run/10];
+        const gvi_desc desc = { .n = 2, .degree = s, .effects = scene, .effect_count = 2,
+                                .formulation = run % 2 ? GVI_NEWTON : GVI_AUTO };
+        real error[2], lambda;
+        for (int k = 0; k < 2; ++k) {
+            const real h = R(0.02)*(real)s/(real)(1 + k);
+            gvi_stepper st = new_motion(&desc, 0, (real[]){ 1, 0 }, (real[]){ 0, R(-0.5) });
+            assert_status(gvi_curve_multipliers(&st, tau, &lambda), GVI_E_STATE);
+            assert_ok(gvi_step(&st, h));
+            assert_ok(gvi_curve_multipliers(&st, tau, &lambda));
+            error[k] = fabs(lambda - (3*height_at(tau*h) - R(0.25)));
+            assert_status(gvi_curve_multipliers(&st, 2, &lambda), GVI_E_ARGUMENT);
+            assert_ok(gvi_switch(&st, 1, 0));
+            assert_status(gvi_curve_multipliers(&st, tau, &lambda), GVI_E_FORMULATION);
+        }
+        assert_between((real)s - R(0.3), log2(error[0]/error[1]), (real)s + R(0.4));
+    }
+}
+
 RUN_TESTS(NULL, NULL)
