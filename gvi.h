@@ -728,7 +728,7 @@ typedef struct gvi_effect {
     gvi_hessian_fn *hessian;  /* for Newton; NULL: differences of f and dldv, which must
                                  then be exact nearly to rounding               */
     void           *user;     /* handed to the callbacks                        */
-    int             rows;     /* of constraints of both kinds; all together at most n */
+    int             rows;     /* of constraints of both kinds; they may depend on each other */
 } gvi_effect;
 
 typedef enum gvi_mass_kind {
@@ -6978,7 +6978,7 @@ GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int row, int point)
 }
 
 /* What constraints add to the floor of coordinate i, whatever its amplitude, as a length: h^2/m
-   times eps of a force of constraint; and for `moves`, its last change where that came from the
+   times eps of the forces of its rows; and for `moves`, their last change where that came from the
    rounding of g, which nearly dependent rows make large.                                      */
 static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m,
                                 gvi_real eps, int moves)
@@ -6986,9 +6986,10 @@ static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_re
     const struct gvi__private *in = &st->in;
     gvi_real push = 0;
     if (!gvi__constrained(st)) return 0;
+    if (i == 0) gvi__force_sizes(st, in->con.force + st->n*in->R, in->R, in->con.plus);
     if (i == 0 && moves) gvi__constraints_moved(st, in->con.W);
     for (int e = 0; e < st->s; ++e) {
-        gvi_real force = eps*GVI_ABS(h*in->con.force[i*in->R + e]);
+        gvi_real force = eps*GVI_ABS(h*in->con.plus[i*in->R + e]);
         if (moves) force += in->con.W[i*in->con.C + e]/GVI_ABS(in->con.hw[e]);
         push = gvi__larger(GVI_ABS(h)*force/m, push);
     }
@@ -7057,7 +7058,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
     const int n = st->n, m = in->con.m;
     if (!gvi__constrained(st)) return GVI_OK;
     gvi_real before = 0, least = GVI__MAX, *Q = in->work.Q, *z = in->con.rho, *left = in->con.y,
-             *d = in->con.W, *unit = d + n, *g = in->con.g, *path = in->answer,
+             *unit = z + m, *d = in->con.W, *g = in->con.g, *path = in->answer,
              *G = in->con.G1 + m*n;                  // G0 is before it
     const gvi_real t = from->t + (from->t_low + h);
     gvi_status status = gvi__constraints_at(st, from->t, from->q, NULL, NULL, in->con.drops);
@@ -7570,8 +7571,8 @@ GVI__OFFERED const gvi_real *gvi__constraint_shift(const gvi_stepper *st)
 GVI__COLD const char *gvi__wrong_in_constraint(const struct gvi__private *in, int e)
 {
     const gvi_effect *effect = in->desc.effects + e;
-    if (effect->rows < 1 || effect->rows > in->desc.n - in->con.m)
-        return "effect: rows is not 1 to what is left of n";
+    if (effect->rows < 1 || effect->rows > 0x7FFF - in->con.m)
+        return "effect: rows is below 1, or all rows are more than 32,767";
     if (!effect->points) return "effect: this kind needs points, not point";
     return NULL;
 }
@@ -9621,7 +9622,8 @@ GVI__COLD gvi_status gvi__place_chosen(struct gvi__private *in, int order, gvi_f
 #endif
     if (matrices && d->n > 0x7FFF) wrong = "n is above 32,767, and matrices may be needed";
 #ifndef GVI_NO_CONSTRAINTS
-    if (in->con.m > 0x7FFFFFFF/(GVI__ROW(d->degree + 1)*d->n))                   // of G
+    const int widest = d->n > in->con.m ? d->n : in->con.m;                      // of G, or of A
+    if (in->con.m > 0x7FFFFFFF/(GVI__ROW(d->degree + 1)*widest))
         wrong = "n, degree and rows of constraints are too large together";
 #endif
     if (d->resolution > 0) {
