@@ -1128,7 +1128,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
    The first start with a constraint, and gvi_project before it, see that it fills all points, and
    compare its jacobian and rate with differences of g next to (t, q).  An entry that is off by more
    than 1/512 of itself, and more than rounding hides (in float most of 1 %), is refused:
-   GVI_E_ARGUMENT, its row in fault.coordinate.  Later steps do not look again.
+   GVI_E_ARGUMENT, its row in fault.coordinate.  Later starts do not look again.
    GVI_E_CONSTRAINT where q or v is off a constraint: q by more than 4096 roundings of g's
    terms and 4 of the largest |q_i| sqrt(M_ii), v if the part that G v + dg/dt = 0 removes has more
    than (4096 eps)^2 of the kinetic energy.                                                    */
@@ -7377,88 +7377,109 @@ GVI__COLD int gvi__unfilled_row(gvi_stepper *st, gvi_real t, const gvi_real *q, 
     return wrong;
 }
 
-/* Are G and dg/dt the derivatives of g?  When a constraint is first started with, they are compared
-   with differences of g along each coordinate and along t, to both sides by d, d/8, d/64 ... until
-   all rows agree; next to the state, where an entry that is 0 there is not.  An entry is wrong
-   where, twice in a row, the slopes to both sides and their mean at the last d agree to 1/64, and
-   the entry misses them by four times that, the rounding of g's known terms, and 1/512: so kinks,
-   noise, waves shorter than d, and moves that the rounding of g hides prove nothing.          */
+/* The row whose derivative by coordinate i, or by t for i = n, is not the one written, or -1: from
+   differences to both sides by d, d/8, d/64 ... until all rows agree.  An entry is wrong where,
+   twice in a row, the slopes to both sides, their mean at the last d, and what is written at both
+   ends agree to 1/64, and the entry misses them by four times that, the rounding of g's known
+   terms, and 1/512; and where it agrees at no shorter d that rounding leaves.  So kinks, noise,
+   waves shorter than d, and moves that the rounding of g hides prove nothing.                  */
+GVI__COLD int gvi__wrong_derivative(gvi_stepper *st, gvi_real from_t, int i, gvi_real d)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m, next = i < n ? n : 1;
+    gvi_real *g = in->con.g, *G = in->con.G1, *at = in->con.W, *was = in->con.rho, *rate = was + m,
+             *mean = rate + m, *ahead = in->con.y, *turn = g + 2*m, now = from_t, off = 0,
+             *moved = i < n ? at + i : &now;
+    const gvi_real x = *moved, *from = at + n, *written = i < n ? G + i : rate,
+                   *there = i < n ? G + m*n + i : g + m, least = GVI__SURE*GVI__EPS*GVI_ABS(x);
+    int wrong = -1;
+
+    for (int k = 0, agree = 0, known = 0, suspect = -1; k < 40 && d > least && !agree; ++k) {
+        int doubted = -1;
+        *moved = x + d;
+        gvi_status status = gvi__evaluate_constraints(st, 1, 1, &now, at, G + m*n);
+        for (int a = 0; a < m; ++a) {
+            ahead[a] = (g[a] - was[a])/(*moved - x);
+            turn[a] = GVI_ABS(there[a*next] - written[a*next]);
+        }
+
+        *moved = x - d;
+        if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &now, at, G + m*n);
+        agree = status == GVI_OK;
+        for (int a = 0; a < m && status == GVI_OK; ++a) {
+            const gvi_real entry = written[a*next], back = (g[a] - was[a])/(*moved - x),
+                middle = ahead[a]/2 + back/2, miss = GVI_ABS(entry - middle),
+                bend = GVI_ABS(ahead[a] - back) + GVI_ABS(middle - mean[a]),
+                apart = gvi__larger(bend, turn[a]/2 + GVI_ABS(there[a*next] - entry)/2),
+                terms = gvi__terms(st, 1, from_t, from, G, rate, a) + GVI_ABS(was[a]),
+                noise = GVI__SOLVED*GVI__EPS*(terms/d),
+                none = (GVI_ABS(entry)/2 + GVI_ABS(middle)/2)/GVI__WRONG + noise;
+            if (!(miss <= none)) agree = 0;
+            if (a == wrong && miss <= none && noise < off/2) wrong = -1;
+            if (known && doubted < 0 && 64*apart < GVI_ABS(middle) && miss > none + 4*apart)
+                doubted = a;
+            if (a == doubted && a == suspect && wrong < 0) {
+                wrong = a;
+                off = miss;
+            }
+            mean[a] = middle;
+        }
+        suspect = doubted;
+        known = status == GVI_OK;
+        d /= 8;
+    }
+
+    *moved = x;
+    return wrong;
+}
+
+/* Are G and dg/dt the derivatives of g?  When a constraint is first started with, next to the
+   state, where an entry that is 0 there is not.                                               */
 GVI__COLD gvi_status gvi__check_derivatives(gvi_stepper *st, gvi_real t, const gvi_real *q)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     const gvi_counters counters = st->counters;          // no step's work
-    gvi_real *g = in->con.g, *G = in->con.G1, *at = in->con.W, *from = at + n, *was = in->con.rho,
-             *rate = was + m, *mean = rate + m, *ahead = in->con.y, largest = 0, from_t = t;
+    gvi_real *g = in->con.g, *at = in->con.W, *from = at + n, *was = in->con.rho, *rate = was + m,
+             largest = 0, from_t = t;
+    const gvi_real root = GVI_SQRT(GVI_SQRT(GVI__EPS));
+    const char *slip = NULL;
     gvi_status status = GVI_OK;
+    int row = -1;
 
     for (int i = 0; i < n; ++i) largest = gvi__larger(GVI_ABS(q[i]), largest);
     for (gvi_real part = 1/(gvi_real)64; ; part = 0) {           // at the state, if not next to it
         from_t = t + part*gvi__size_of(t, 1);
         for (int i = 0; i < n; ++i)
             from[i] = q[i] + part*gvi__size_of(q[i], largest)*(1 + (gvi_real)i/(gvi_real)n);
-        status = gvi__evaluate_constraints(st, 1, 1, &from_t, from, G);
+        status = gvi__evaluate_constraints(st, 1, 1, &from_t, from, in->con.G1);
         if (!(part > 0) || (status == GVI_OK && gvi__first_non_finite(m, g) < 0)) break;
     }
 
-    (void)gvi__find_columns(st, 1, 1, G);
+    (void)gvi__find_columns(st, 1, 1, in->con.G1);
     gvi__copy((size_t)m, g, was);
     gvi__copy((size_t)m, g + m, rate);
-    if (status == GVI_OK) {
-        const int row = gvi__unfilled_row(st, from_t, from, was, rate);
-        st->counters = counters;
-        if (row >= 0) {
-            gvi__report_row(st, GVI_E_ARGUMENT, row, GVI_FAULT_NONE);
-            st->fault.argument = "constraint: fills not all points: row a of point k < x->count is "
-                                 "at [a*x->stride + k]";
-            return GVI_E_ARGUMENT;
-        }
-    }
-
     gvi__copy((size_t)n, from, at);
-    for (int i = 0; i <= n && status == GVI_OK; ++i) {
-        const gvi_real x = i < n ? from[i] : from_t, *entries = i < n ? G + i : rate,
-                       least = GVI__SURE*GVI__EPS*GVI_ABS(x);
-        gvi_real now = from_t, *moved = i < n ? at + i : &now,
-                 d = GVI_SQRT(GVI_SQRT(GVI__EPS))*gvi__size_of(x, i < n ? largest : 1);
-        for (int k = 0, agree = 0, known = 0, suspect = -1; k < 40 && d > least && !agree;
-             ++k, d /= 8) {
-            int wrong = -1;
-            *moved = x + d;
-            status = gvi__evaluate_constraints(st, 1, 1, &now, at, G + m*n);
-            for (int a = 0; a < m; ++a) ahead[a] = (g[a] - was[a])/(*moved - x);
-            *moved = x - d;
-            if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &now, at, G + m*n);
-            agree = status == GVI_OK;
-            for (int a = 0; a < m && status == GVI_OK; ++a) {
-                const gvi_real entry = entries[i < n ? a*n : a],
-                    back = (g[a] - was[a])/(*moved - x),
-                    middle = ahead[a]/2 + back/2, miss = GVI_ABS(entry - middle),
-                    apart = GVI_ABS(ahead[a] - back) + GVI_ABS(middle - mean[a]),
-                    terms = gvi__terms(st, 1, from_t, from, G, rate, a) + GVI_ABS(was[a]),
-                    none = (GVI_ABS(entry)/2 + GVI_ABS(middle)/2)/GVI__WRONG
-                           + GVI__SOLVED*GVI__EPS*(terms/d);
-                if (!(miss <= none)) agree = 0;
-                if (known && wrong < 0 && 64*apart < GVI_ABS(middle) && miss > none + 4*apart)
-                    wrong = a;
-                mean[a] = middle;
-            }
-            if (wrong >= 0 && wrong == suspect) {
-                st->counters = counters;
-                gvi__report_row(st, GVI_E_ARGUMENT, wrong, GVI_FAULT_NONE);
-                st->fault.argument =
-                    i < n ? "constraint: a jacobian is not dg/dq, in fault.coordinate's row"
-                          : "constraint: a rate is not dg/dt, in fault.coordinate's row";
-                return GVI_E_ARGUMENT;
-            }
-            suspect = wrong;
-            known = status == GVI_OK;
-        }
-        *moved = x;
-        status = GVI_OK;
+    if (status == GVI_OK) {
+        row = gvi__unfilled_row(st, from_t, from, was, rate);
+        slip = "constraint: fills not all points: row a of point k < x->count is at "
+               "[a*x->stride + k]";
+    }
+    for (int i = 0; i <= n && status == GVI_OK && row < 0; ++i) {
+        const gvi_real size = i < n ? gvi__size_of(from[i], largest) : gvi__size_of(from_t, 1);
+        row = gvi__wrong_derivative(st, from_t, i, root*size);
+        slip = i < n ? "constraint: a jacobian is not dg/dq, in fault.coordinate's row; if it is, "
+                       "start once where that shows"
+                     : "constraint: a rate is not dg/dt, in fault.coordinate's row; if it is, "
+                       "start once where that shows";
     }
 
     st->counters = counters;
+    if (row >= 0) {
+        gvi__report_row(st, GVI_E_ARGUMENT, row, GVI_FAULT_NONE);
+        st->fault.argument = slip;
+        return GVI_E_ARGUMENT;
+    }
     gvi__forget_columns(st);
     return gvi__report_status(st, GVI_OK);
 }
