@@ -776,7 +776,7 @@ typedef enum gvi_formulation {
     GVI_AUTO       = 0,   /* the cheapest that covers the scene; Newton if that
                              contracts badly and s n <= 1024, since Newton's memory
                              grows like (s n)^2: above that, pin GVI_NEWTON.
-                             With m constraints, read n + m for n               */
+                             With m constraints if s (n + m)^3 <= 2880 n        */
     GVI_EXPLICIT   = 1,
     GVI_POSITIONS  = 2,
     GVI_VELOCITIES = 3,   /* forces that read v; Lagrangian terms take momenta or Newton */
@@ -1711,7 +1711,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__LINEAR ((gvi_real)0.015625)   // the equations are all but linear
 #define GVI__CLOSE ((gvi_real)0.03125)     // of a curve, from its prediction: on the same branch
 #define GVI__SHORT 64                      // h over this: free motion leads to the motion
-#define GVI__FADES 64                      // of a row where a step failed: so much earlier it ends
+#define GVI__FADES (1 << GVI__DIG/6)       // where a step failed a row ends by a third of its digits
 #define GVI__LOST 4                        // of a pivot's entry what is left: rank may be changing
 #define GVI__WRONG 512                     // of an entry of G, what it is off times this: wrong
 
@@ -6257,13 +6257,17 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
 
 /* ---- as a solver ---- */
 
-// after a fixed point: only if its matrices are small, nothing is pinned, and there is no clock
+/* After a fixed point, if nothing is pinned and there is no clock: where its matrices are small,
+   s n <= 1024.  Under constraints a step mostly fails because rows turn far in it, and a shorter
+   one has no need of Newton: there LU, (s (n + m))^3/3, may cost as much as halving h four times,
+   16 steps of 60 iterations of s^2 n.                                                          */
 GVI__COLD int gvi__newton_follows(const struct gvi__private *in, int held)
 {
     const gvi_desc *d = &in->desc;
-    return d->formulation == GVI_AUTO && in->stages > 0 && in->chosen != GVI_NEWTON
-           && d->iterations == 0 && !gvi__of_kind(in, GVI_CLOCK)
-           && d->degree <= 1024/(d->n + held);
+    const gvi_real n = (gvi_real)d->n, all = n + (gvi_real)held;
+    if (d->formulation != GVI_AUTO || in->stages == 0 || in->chosen == GVI_NEWTON) return 0;
+    if (d->iterations > 0 || gvi__of_kind(in, GVI_CLOCK) || d->degree > 1024/d->n) return 0;
+    return held == 0 || (gvi_real)d->degree*(all*all*all) <= 3*16*60*n;
 }
 
 GVI__COLD void gvi__newton_layout(struct gvi__private *in, int held, gvi__arena *a)
@@ -7202,7 +7206,7 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
    about to depend on them: the rank changes, a change point of a linkage.  Its multiplier is noise
    over what is left, more of it the shorter a step is, so no h mends it.  Rows that were that near
    where the motion started may stay so.  From gram1; `margin`: where a step has failed, that much
-   earlier; 0: a start, to be remembered.                                                      */
+   earlier, by a third of the digits; 0: a start, to be remembered.                            */
 GVI__CALLED gvi_status gvi__check_rank(gvi_stepper *st, int margin)
 {
     const int m = st->in.con.m;
