@@ -4209,6 +4209,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 
 GVI_DEF gvi_status gvi_steps(gvi_stepper *st, gvi_real h, int count)
 {
+    if (st && st->in.started && count == 0) return GVI_OK;       // st says what it said
     gvi_status status = gvi__ready(st, st && st->in.started);
     if (status != GVI_OK) return status;
     if (count < 0) return gvi__refuse_call(st, "count is negative");
@@ -4518,7 +4519,8 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
 
     gvi__copy((size_t)n, at->dldv, base);
     for (int j = 0; j < n; ++j) {
-        const gvi_real was = v[j], push = GVI_ABS(st->in.sized.h*at->f[j])*root;
+        const gvi_real was = v[j],
+                       push = gvi__larger(GVI_ABS(st->in.sized.h*at->f[j]), GVI_ABS(base[j]))*root;
         const int rests = !gvi__nonzero(was);
         gvi_real d = 0, next = root*GVI_ABS(was);
         if (rests) next = root*(gvi__norm1(n, v)/(gvi_real)n);
@@ -4535,7 +4537,7 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
                 next = d*root;
                 if (GVI_ABS(d)*root < 2*GVI__EPS*GVI_ABS(was)) next = -2*GVI__EPS*was;
             } else if (rests && push > 0 && moved > 16*push) {
-                next = d*(push/moved);                     // from rest, as f takes it
+                next = d*(push/moved);                     // from rest, as f takes it, or P shows
             } else if (moved < root*GVI_ABS(base[j])/2) {
                 next = d/GVI_SQRT(root);
             } else break;
