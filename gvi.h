@@ -1711,7 +1711,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__LINEAR ((gvi_real)0.015625)   // the equations are all but linear
 #define GVI__CLOSE ((gvi_real)0.03125)     // of a curve, from its prediction: on the same branch
 #define GVI__SHORT 64                      // h over this: free motion leads to the motion
-#define GVI__FADES (1 << GVI__DIG/6)       // where a step failed a row ends by a third of its digits
+#define GVI__FADES (1 << GVI__DIG/6)       // a third of the digits: where a step failed, a row ends
 #define GVI__LOST 4                        // of a pivot's entry what is left: rank may be changing
 #define GVI__WRONG 512                     // of an entry of G, what it is off times this: wrong
 
