@@ -539,12 +539,21 @@ typedef struct gvi_points {
     gvi_real       *jacobian;  /* [rows*n][stride] write dg_a/dq_i, row a*n + i: what is not 0 */
     gvi_real       *rate;      /* [rows][stride] write dg_a/dt where g reads t; it is 0 before;
                                   nonholonomic: A to jacobian, a to rate, g stays as it is */
+    const char    **why;       /* for gvi_fail; may be NULL                    */
 } gvi_points;
 
 /* All points at once.  Returns 0, or anything else if it cannot be evaluated
    here.  A step that is not explicit is then tried without its predictor, nearer to its
    start, and by Newton's method; if all fail, it ends with GVI_E_CALLBACK.    */
 typedef int gvi_points_fn(const gvi_points *x, void *user);
+
+/* A callback that knows why it cannot be evaluated says so by `return gvi_fail(x, "beyond the
+   road's end")`: gvi_why gives this sentence, which has to stay where it is.  Returns 1.     */
+static inline int gvi_fail(const gvi_points *x, const char *why)
+{
+    if (x->why) *x->why = why;
+    return 1;
+}
 
 /* A gvi_points_fn written for one point.  GVI_POINTS(name, n, ...) means `static int name`;
    n is a constant.  The list names the arrays that the body uses (t and q are always there): v, p,
@@ -648,7 +657,7 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
     GVI__INDEPENDENT for (; k < to; ++k) {
         gvi_points y = { n, 1, 1, x->t + k, a, a + n, a + 2*n, a + 3*n, a + 4*n,
                          single ? a + 5*n : NULL,
-                         GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5), g, G, dg };
+                         GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5), g, G, dg, x->why };
         GVI__MOVE(any, n, a[i], x->q[i*s + k]);
         GVI__MOVE(GVI__USES_v, n, a[n + i], x->v[i*s + k]);
         GVI__MOVE(GVI__USES_p, n, a[2*n + i], x->p[i*s + k]);
@@ -825,8 +834,8 @@ typedef struct gvi_fault {             /* where the last failure came from      
     int coordinate;                    /* or GVI_FAULT_NONE                     */
     int point;                         /* quadrature point, or GVI_FAULT_NONE   */
     const char *argument;              /* GVI_E_ARGUMENT, GVI_E_CALLBACK of a GVI_POINTS that
-                                          lists too much, and where a call knows
-                                          more than its status: a sentence, else NULL */
+                                          lists too much or by gvi_fail, and where a call
+                                          knows more than its status: a sentence, else NULL */
 } gvi_fault;
 
 /* Work of steps and queries since gvi_init.  The caller may set any of it to 0. */
@@ -979,11 +988,13 @@ struct gvi__rolling {                 /* rows of GVI_NONHOLONOMIC, of m in all  
 #ifndef GVI_NO_DIAL
 struct gvi__dial {
     gvi_real *high;                   /* [r][6] sources to the highest modes                   */
-    int       top;                    /* the highest of them: K of gvi__resolution             */
-    gvi_real  reach, loss;            /* rungs: longest step allowed last, and by how much less */
+    gvi_real *now, *before;           /* [n] y_(K-1), and that of the step before              */
+    gvi_real  span;                   /* h of that step; 0: there is none                      */
+    int       top;                    /* the highest of the modes: K of gvi__resolution        */
+    gvi_real  reach;                  /* rung up to which the last measured step would do      */
     gvi_real  barrier;                /* rung of the last length that failed                   */
     int       wait, again;            /* steps below that; failures near it, one after another */
-    int       shorter, put_off;       /* lengths to try before Newton's method; is it put off? */
+    int       put_off;                /* shorter lengths come before Newton's method           */
 };
 #endif
 
@@ -1039,6 +1050,7 @@ struct gvi__private {
     int                 stepped;      /* 2: by a clock                                         */
     int                 kept;         /* valid steps in last and older, equally long           */
     int                 has_velocity; /* last.V holds                                          */
+    const char         *why;          /* of gvi_fail, until it is reported                     */
 #ifndef GVI_NO_RULES
     struct gvi__rules      rules;
 #endif
@@ -1085,7 +1097,7 @@ typedef struct gvi_stepper {
     int             iterations;       /* in the last step                       */
     gvi_real        resolution;       /* of the last step that was tried, with desc.resolution:
                                          the largest relative error of a coordinate and its velocity
-                                         together, as the curve's modes show it (STEP); the true
+                                         together, as the curve's modes show it (THE DIAL); the true
                                          error is usually far smaller, rarely 10 times as large */
     gvi_real        next;             /* the length that gvi_advance will try; may be set  */
     gvi_counters    counters;
@@ -1311,7 +1323,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
     GVI__LENGTH(GVI__SIZE(n), GVI__SIZE(s), GVI__SIZE(r), GVI__SIZE(GVI__ROW(r)))
 #define GVI__LENGTH(n, s, r, R) (GVI__CORE_LENGTH(n, s, r, R) + GVI__RULES_LENGTH(s)            \
     + GVI__LAGRANGIAN_LENGTH(n, r, R) + GVI__MOMENTA_LENGTH(n, r, R) + GVI__CLOCK_LENGTH(n, R)  \
-    + GVI__KICKS_LENGTH(r) + GVI__NEWTON_LENGTH(n, s, R) + GVI__DIAL_LENGTH(R)                  \
+    + GVI__KICKS_LENGTH(r) + GVI__NEWTON_LENGTH(n, s, R) + GVI__DIAL_LENGTH(n, R)               \
     + ((r) > 4 ? GVI__SLACK : 0))
 
 #ifdef GVI_ONLY_EXPLICIT
@@ -1351,9 +1363,9 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__NEWTON_LENGTH(n, s, R) ((10*(s) + 5*(R) + (3 + 2*(s)*(s))*(n))*(n) + 2)
 #endif
 #ifdef GVI_NO_DIAL
-#define GVI__DIAL_LENGTH(R) 0
+#define GVI__DIAL_LENGTH(n, R) 0
 #else
-#define GVI__DIAL_LENGTH(R) (6*(R))
+#define GVI__DIAL_LENGTH(n, R) (2*(n) + 6*(R))
 #endif
 
 /* GVI_LENGTH with constraints, m rows in all.                                 */
@@ -1716,18 +1728,16 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__WRONG 512                     // of an entry of G, what it is off times this: wrong
 
 // the dial, in rungs, four an octave
-#define GVI__BAND 4                        // room at which h stays; and the most that it grows
-#define GVI__MARGIN ((gvi_real)0.5)        // of it, kept back
-#define GVI__DOUBT ((gvi_real)0.5)         // rungs below 0: by a loss that is the first
-#define GVI__SHY 2                         // rungs of room kept back by a step that grows
+#define GVI__BAND 2                        // room at which h stays, and that growth leaves
+#define GVI__GROWS 4                       // the most that it grows
+#define GVI__MARGIN 1                      // of room, kept back
 #define GVI__MANY (4 + GVI__DIG/4)         // iterations from which on a longer step does not pay
 #define GVI__WAIT 4                        // steps until a length that failed is tried again
-#define GVI__SHORTER 3                     // lengths tried before Newton's method, 3 rungs apart
+#define GVI__SHORTER 16                    // below what the resolution allows: Newton's method
 #define GVI__STEADY ((gvi_real)0.64)       // of a fall of modes, squared, that one pair alone shows
-#define GVI__CANCELS 16                    // s^2 eps: rounding of forces that cancel
 #define GVI__FALL 8                        // the most that it shrinks, and after a failure
 #define GVI__RESTS 4096                    // times slower than the fastest: judged with it
-#define GVI__PULLED 256                    // roundings of g, or of forces of constraint
+#define GVI__PULLED 256                    // roundings of g, of forces that cancel or constrain
 #define GVI__DEEP (GVI__DIG/2)             // degree whose modes reach rounding
 
 /* ---------------------------------------------------------------- BLOCKS */
@@ -2028,6 +2038,15 @@ static gvi_real gvi__node_guess(int lobatto, int m, int j)
     return sine*sine;
 }
 
+// a correction in one word; three of these, and one or two in double words are left
+GVI__COLD gvi_real gvi__node_nearer(int lobatto, int m, gvi_real c)
+{
+    gvi_real P = 1, d = 0;
+    for (int k = 0; k < m; ++k) gvi__legendre(k, 1 - 2*c, &P, &d);
+    d -= (1 - 2*c)*P;
+    return lobatto ? c - d/(2*(gvi_real)(m + 1)*P) : c + 2*P*c*(1 - c)/((gvi_real)m*d);
+}
+
 /* Nodes and weights; c_low, if given, gets the low words of c.  Nodes are symmetric about 1/2: one
    half is computed.  After a correction below eps the next one would be below its square: c is then
    accurate relative to itself, even next to the end of the interval.                         */
@@ -2040,6 +2059,7 @@ GVI__COLD gvi_status gvi__rule(int lobatto, int n, gvi_real *c, gvi_real *c_low,
         if (2*j + 1 == n) start = (gvi_real)0.5;       // and so is the middle
         else if (j > 0 || !lobatto) {
             start = gvi__node_guess(lobatto, m, j);
+            for (int k = 0; k < 3; ++k) start = gvi__node_nearer(lobatto, m, start);
             last = 1;
         }
         gvi__two x = gvi__two_of(start, 0);
@@ -2359,6 +2379,8 @@ static gvi_status gvi__refuse_call(gvi_stepper *st, const char *argument)
 GVI__COLD gvi_status gvi__report_callback(gvi_stepper *st, int failed, int effect)
 {
     gvi__report_effect(st, GVI_E_CALLBACK, effect);
+    st->fault.argument = st->in.why;
+    st->in.why = NULL;
     if (failed == GVI__MISSING)
         st->fault.argument = "GVI_POINTS lists what this kind does not have, as v: is .kind set?";
     if (failed == GVI__OTHER_N)
@@ -2393,16 +2415,16 @@ static unsigned gvi__of_kind(const struct gvi__private *in, gvi_kind kind)
 }
 
 // `count` points at q, to which f and dldv are added; v, value and the like are set by the caller
-static gvi_points gvi__points_at(const gvi_stepper *st, int count, int R, const gvi_real *t,
+static gvi_points gvi__points_at(gvi_stepper *st, int count, int R, const gvi_real *t,
                                  const gvi_real *q, gvi_real *f, gvi_real *dldv)
 {
-    const gvi_points at = { st->n, count, R,    t,    q,    NULL, NULL, f,
-                           dldv,  NULL,  NULL, NULL, NULL, NULL, NULL };
+    const gvi_points at = { st->n, count, R,    t,    q,    NULL, NULL,        f,
+                           dldv,  NULL,  NULL, NULL, NULL, NULL, NULL, &st->in.why };
     return at;
 }
 
 // one point, f and dldv in scratch
-static gvi_points gvi__one_point(const gvi_stepper *st, const gvi_real *t, const gvi_real *q)
+static gvi_points gvi__one_point(gvi_stepper *st, const gvi_real *t, const gvi_real *q)
 {
     gvi_real *f = st->in.point + 4*st->n;
     return gvi__points_at(st, 1, 1, t, q, f, f + st->n);
@@ -3412,7 +3434,7 @@ GVI__BODY gvi_real gvi__scale_of(gvi_real base, gvi_real was, gvi_real is)
     return size > GVI__NOTHING ? 1/size : 0;
 }
 
-// the squares at eight points, added up in one order everywhere
+// the squares at eight points, in the order that lanes add them up
 GVI__BODY gvi_real gvi__sum_squares(const gvi_real *z)
 {
     return ((z[0] + z[4]) + (z[1] + z[5])) + ((z[2] + z[6]) + (z[3] + z[7]));
@@ -3495,7 +3517,7 @@ GVI__BODY gvi_real gvi__rows_by_lanes(const gvi_stepper *st, const gvi__stage *G
     gvi_real few[16], *L = R <= 16 ? few : st->in.weighted, total[8];
     gvi__lane square[GVI__BLOCK] = { none };
 
-    for (int i = 0; i < n; ++i) {
+    GVI__LOOP(GCC unroll 2) for (int i = 0; i < n; ++i) {
         gvi_real *row = y->rows + i*R, scale = y->scale[i];
         const gvi_real base = y->base[i], inverse = y->inverse[i], factor = y->factor;
         const gvi_real was = row[last], half = row[middle];
@@ -3577,6 +3599,7 @@ GVI__KERNEL(gvi__rows_8,     st->n, 8, 8)
 GVI__KERNEL(gvi__rows_to_8,  st->n, st->r, 8)
 GVI__KERNEL(gvi__rows_12,    st->n, 12, 16)
 GVI__KERNEL(gvi__rows_16,    st->n, 16, 16)
+GVI__KERNEL(gvi__rows_to_16, st->n, st->r, 16)
 GVI__KERNEL(gvi__rows_many,  st->n, st->r, st->in.R)
 #endif
 
@@ -3589,7 +3612,8 @@ static gvi__kernel *gvi__kernel_for(const gvi_stepper *st)
     if (st->r == 6) return gvi__rows_6;
     if (st->r == 12) return gvi__rows_12;
     if (st->r == 16) return gvi__rows_16;
-    if (st->r > 4) return st->r < 8 ? gvi__rows_to_8 : gvi__rows_many;
+    if (st->r > 4)
+        return st->r < 8 ? gvi__rows_to_8 : st->r < 16 ? gvi__rows_to_16 : gvi__rows_many;
 #endif
     return gvi__rows_by_points;
 }
@@ -3672,6 +3696,7 @@ static void gvi__sums(const gvi_stepper *st, const gvi_real *table, const gvi_re
     const int n = st->n, r = st->r, R = st->in.R;
     if (GVI__LANES > 1 && r == 8) gvi__sums_at(n, 8, 8, table, source, rows, add);
     else if (GVI__LANES > 1 && r > 4 && R == 8) gvi__sums_at(n, r, 8, table, source, rows, add);
+    else if (GVI__LANES > 1 && R == 16) gvi__sums_at(n, r, 16, table, source, rows, add);
     else if (GVI__LANES > 1 && r > 4) gvi__sums_at(n, r, R, table, source, rows, add);
     else for (int i = 0; i < n; ++i, source += R, rows += R)
         for (int k = 0; k < R; ++k) {
@@ -3777,11 +3802,12 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
 
 /* THE FLOOR: what rounding alone changes of a row from one iteration to the next, and how far the
    changes exceed it, the largest of all rows.  A row's own floor is 4 eps of its largest value.
-   With `all` it is 32 eps of the largest amplitude: where the iteration contracts, h^2 dF/dQ between
-   amplitudes is below 1, so the rounding of one coordinate makes no more than that of another: a
+   With `all` it is 32 eps of the largest amplitude: where the iteration contracts, h^2 dF/dQ
+   between amplitudes is below 1, so the rounding of one coordinate makes no more of another: a
    light body midway between two heavy ones.  To both comes what constraints add: to Q the rounding
    of g as well, which a velocity must not show.                                               */
-GVI__CALLED gvi_real gvi__excess(const gvi_stepper *st, gvi_real h, const gvi__stage *stage, int all)
+GVI__CALLED gvi_real gvi__excess(const gvi_stepper *st, gvi_real h, const gvi__stage *stage,
+                                 int all)
 {
     const int parts = gvi__parts(&st->in) != 0;
     const gvi_real eps = GVI__EPS*(all ? GVI__NOISE : GVI__PLACE);
@@ -3855,17 +3881,6 @@ static void gvi__note(gvi_stepper *st, gvi__progress *p, gvi_real D)
     p->rescale = D > GVI__FAR*GVI__FAR || gvi__is_poor(p);
 }
 
-// may a change be rounding?  Not while a row falls to a quarter, above its last places
-static int gvi__stands_still(const gvi_stepper *st)
-{
-    const gvi_real *change = st->in.watch.change, *before = st->in.watch.before,
-                   place = GVI__PLACE*GVI__EPS;
-    if (gvi__parts(&st->in) && gvi__place_moves(st)) return 0;
-    for (int row = 0; row < st->in.stages*st->n; ++row)
-        if (change[row] > place*place && change[row] < before[row]/16) return 0;
-    return 1;
-}
-
 /* What falls goes on.  What makes no new least is rounding below the floor: below a row's own at
    once, below that of all rows after a while, which as a rule is above what a row can reach.
    What is above it and falls by less than a bit, time after time, does not converge.  Under
@@ -3874,9 +3889,10 @@ static int gvi__rests(gvi_stepper *st, gvi__progress *p, gvi_real h, const gvi__
 {
     const int patience = gvi__parts(&st->in) && gvi__place_holds(st) ? 0 : 1,
               long_since = p->idle > 1 + 3*patience, poor = gvi__is_poor(p),
-              still = p->idle > patience && gvi__stands_still(st);
+              still = p->idle > patience && !(gvi__parts(&st->in) && gvi__place_moves(st)),
+              slow = st->in.turns && p->used - p->idle >= GVI__SLOW,
+              rest = slow ? GVI__DIVERGES : GVI__ONCE_MORE;
 
-    const int rest = st->in.turns && p->used - p->idle >= GVI__SLOW ? GVI__DIVERGES : GVI__ONCE_MORE;
     if (still && gvi__excess(st, h, stage, 0) <= 1) return rest;
     if (!poor) p->poor = 0;
     if (!poor && !long_since) return GVI__GO_ON;
@@ -4010,6 +4026,7 @@ static void gvi__sum_rows(const gvi_stepper *st, gvi_real *rows, const gvi_real 
         gvi__two z;
         if (R == 8) z = gvi__exact_dot(8, st->in.sized.hb, rows);
         else if (R == 4) z = gvi__exact_dot(4, st->in.sized.hb, rows);
+        else if (R == 16) z = gvi__exact_dot(16, st->in.sized.hb, rows);
         else z = gvi__exact_dot(R, st->in.sized.hb, rows);
         sum[i] = z.hi;
         sum_low[i] = gvi__low(z.lo + low[i]);
@@ -4162,8 +4179,8 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *in = &st->in;
     const gvi__two t = gvi__two_sum(st->t, in->dt + st->t_low);
-    gvi__move(st->n, in->step.q, in->step.q_low, in->state.q, in->state.q_low, in->began.q);
-    gvi__move(st->n, in->step.p, in->step.p_low, in->state.p, in->state.p_low, in->began.p);
+    // p stands behind q
+    gvi__move(2*st->n, in->step.q, in->step.q_low, in->state.q, in->state.q_low, in->began.q);
     st->t0 = st->t;
     st->t = t.hi;
     st->t_low = t.lo;
@@ -4519,8 +4536,8 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
 
     gvi__copy((size_t)n, at->dldv, base);
     for (int j = 0; j < n; ++j) {
-        const gvi_real was = v[j],
-                       push = gvi__larger(GVI_ABS(st->in.sized.h*at->f[j]), GVI_ABS(base[j]))*root;
+        const gvi_real was = v[j], moves = GVI_ABS(st->in.sized.h*at->f[j]),
+                       push = root*gvi__larger(moves, GVI_ABS(base[j]));
         const int rests = !gvi__nonzero(was);
         gvi_real d = 0, next = root*GVI_ABS(was);
         if (rests) next = root*(gvi__norm1(n, v)/(gvi_real)n);
@@ -4707,17 +4724,15 @@ static void gvi__lagrangian_predict(const gvi_stepper *st, int extrapolate)
 
 /* ---- the mass at the points ---- */
 
-/* The same for whole lanes of points.  Returns whether all pivots D are sure: the squares of
-   (diagonal entry before elimination)/D, and of what rounding leaves of D/D - 1, add up to less
-   than 1/(n eps)^2.  Otherwise gvi__ldl_factor has to decide, from the matrix made anew.     */
-GVI__BODY int gvi__ldl_factor_lane(int n, int R, gvi_real *m)
+/* The same for whole lanes of points.  Returns the squares of (diagonal entry before
+   elimination)/D, and of what rounding leaves of D/D - 1: all pivots D are sure if they add up to
+   less than 1/(n eps)^2.  Otherwise gvi__ldl_factor has to decide, from the matrix made anew. */
+GVI__BODY gvi__lane gvi__ldl_factor_lane(int n, int R, gvi_real *m)
 {
     const size_t N = (size_t)n, S = (size_t)R;
-    const gvi_real most = 1/((gvi_real)n*GVI__EPS);
     gvi__lane sum = { 0 };
-    gvi_real all = 0;
 
-    for (size_t j = 0; j < N; ++j) {
+    GVI__LOOP(GCC unroll 2) for (size_t j = 0; j < N; ++j) {
         gvi_real *d = m + (j*N + j)*S;
         gvi__lane rest = GVI__LOAD(d);
         for (size_t l = 0; l < j; ++l)
@@ -4735,8 +4750,7 @@ GVI__BODY int gvi__ldl_factor_lane(int n, int R, gvi_real *m)
         }
     }
 
-    for (int k = 0; k < GVI__LANES; ++k) all += GVI__ENTRY(sum, k);
-    return all < most*most;
+    return sum;
 }
 
 // z := M^-1 from, which may be z
@@ -4744,16 +4758,24 @@ GVI__BODY void gvi__ldl_solve_lane(int n, int R, const gvi_real *m, const gvi_re
                                    gvi_real *z)
 {
     const size_t N = (size_t)n, S = (size_t)R;
-    for (size_t i = 0; i < N; ++i) {
+    GVI__LOOP(GCC unroll 2) for (size_t i = 0; i < N; ++i) {
         gvi__lane rest = GVI__LOAD(from + i*S);
-        for (size_t j = 0; j < i; ++j) rest -= GVI__LOAD(m + (i*N + j)*S)*GVI__LOAD(z + j*S);
+        GVI__LOOP(GCC unroll 2) for (size_t j = 0; j < i; ++j)
+            rest -= GVI__LOAD(m + (i*N + j)*S)*GVI__LOAD(z + j*S);
         GVI__STORE(z + i*S) = rest;
     }
-    for (size_t i = N; i-- > 0; ) {
+    GVI__LOOP(GCC unroll 2) for (size_t i = N; i-- > 0; ) {
         gvi__lane rest = GVI__LOAD(z + i*S)*GVI__LOAD(m + (i*N + i)*S);
-        for (size_t j = i + 1; j < N; ++j) rest -= GVI__LOAD(m + (j*N + i)*S)*GVI__LOAD(z + j*S);
+        GVI__LOOP(GCC unroll 2) for (size_t j = i + 1; j < N; ++j)
+            rest -= GVI__LOAD(m + (j*N + i)*S)*GVI__LOAD(z + j*S);
         GVI__STORE(z + i*S) = rest;
     }
+}
+
+GVI__BODY void gvi__solve_lanes(int n, int R, const gvi_real *m, const gvi_real *P, gvi_real *V)
+{
+    GVI__LOOP(GCC unroll 4) for (int o = 0; o < R; o += GVI__LANES)
+        gvi__ldl_solve_lane(n, R, m + o, P + o, V + o);
 }
 
 /* Evaluates mass.points, or with `v` mass.velocity, which reads p.                           */
@@ -4789,13 +4811,16 @@ static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
     if (status != GVI_OK) return status;
     gvi__count(&st->counters.factorizations, x->count);
     if (GVI__LANES > 1 && R % 8 == 0) {
-        int sure = 1;
-        for (size_t i = 0, S = (size_t)R; i < (size_t)n*(size_t)n; ++i)
+        const gvi_real most = 1/((gvi_real)n*GVI__EPS);
+        gvi__lane sum = { 0 };
+        gvi_real all = 0;
+        for (size_t i = 0, S = (size_t)R; x->count < R && i < (size_t)n*(size_t)n; ++i)
             for (size_t k = (size_t)x->count; k < S; ++k) m[i*S + k] = m[i*S];
         for (int o = 0; o < R; o += GVI__LANES)
-            if (n == 2) sure &= gvi__ldl_factor_lane(2, R, m + o);
-            else sure &= gvi__ldl_factor_lane(n, R, m + o);
-        if (sure) return GVI_OK;
+            if (n == 2 && R == 8) sum += gvi__ldl_factor_lane(2, 8, m + o);
+            else sum += gvi__ldl_factor_lane(n, R, m + o);
+        for (int k = 0; k < GVI__LANES; ++k) all += GVI__ENTRY(sum, k);
+        if (all < most*most) return GVI_OK;
         status = gvi__evaluate_mass(st, x, NULL, NULL);
         st->counters.mass -= (unsigned long long)x->count;
         if (status != GVI_OK) return status;
@@ -4940,9 +4965,8 @@ static void gvi__velocity_rows(const gvi_stepper *st, const gvi_real *P, gvi_rea
     }
 
     if (GVI__LANES > 1 && R % 8 == 0 && in->momenta.mass) {
-        for (int o = 0; o < R; o += GVI__LANES)
-            if (n == 2) gvi__ldl_solve_lane(2, R, in->momenta.mass + o, P + o, V + o);
-            else gvi__ldl_solve_lane(n, R, in->momenta.mass + o, P + o, V + o);
+        if (n == 2 && R == 8) gvi__solve_lanes(2, 8, in->momenta.mass, P, V);
+        else gvi__solve_lanes(n, R, in->momenta.mass, P, V);
         return;
     }
 
@@ -4991,8 +5015,9 @@ static gvi_real gvi__place_between(gvi_stepper *st)
     return (gvi_real)st->r*sum;
 }
 
-// before the effects: V from dL/dv(Q, V) = P
-static gvi_status gvi__momenta_evaluate(gvi_stepper *st, gvi_points *at)
+/* Before the effects: V from dL/dv(Q, V) = P.  A new M moved V: of three and more coordinates,
+   where M(q) and F are dearer than rows, Q once more from that V, so that fewer iterations do. */
+static gvi_status gvi__momenta_evaluate(gvi_stepper *st, const gvi__origin *from, gvi_points *at)
 {
     struct gvi__private *in = &st->in;
     gvi_status status = GVI_OK;
@@ -5003,6 +5028,13 @@ static gvi_status gvi__momenta_evaluate(gvi_stepper *st, gvi_points *at)
     in->momenta.has_factor = 1;
     if (!in->desc.mass.velocity) gvi__velocity_rows(st, in->momenta.P, in->work.V);
     else if (GVI__LOOKS(st)) status = gvi__check_rows(st, at, in->work.V, GVI_FAULT_MASS);
+    const int others = (gvi__parts(in) & (GVI__IN_CLOCK | GVI__IN_CONSTRAINTS)) != 0;
+    if (st->n > 2 && in->momenta.mass && !others) {
+        const gvi__stage Q = { in->momenta.T, in->work.V, from->q, in->free.rows + st->n*in->R,
+                               in->momenta.ones, 1, in->work.Q, in->watch.scale + st->n,
+                               in->momenta.was, NULL, GVI__OF_Q, 1 };
+        in->kernel(st, &Q, 0);
+    }
     return status;
 }
 
@@ -6983,6 +7015,17 @@ GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int row, int point)
     return lost*A[(row*m + row)*C];
 }
 
+/* Under rows that roll, a P or V that is nothing but rounding is in every D: does another row still
+   fall to a quarter, above its last places?                                                   */
+GVI__CALLED int gvi__a_row_falls(const gvi_stepper *st)
+{
+    const gvi_real *change = st->in.watch.change, *before = st->in.watch.before,
+                   place = GVI__PLACE*GVI__EPS;
+    for (int row = 0; row < st->in.stages*st->n; ++row)
+        if (change[row] > place*place && change[row] < before[row]/16) return 1;
+    return 0;
+}
+
 /* What constraints add to the floor of coordinate i, whatever its amplitude, as a length: h^2/m
    times eps of the forces of its rows; and for `moves`, their last change where that came from the
    rounding of g, which nearly dependent rows make large.                                      */
@@ -8491,38 +8534,88 @@ static gvi_real gvi__power(gvi_real x, int k)
     return y;
 }
 
-/* What a coordinate lacks of its velocity, of which y are the modes K, K - 1 .., `ends` at both
+/* Are the highest modes of coordinate i nothing but rounding?  Of the terms of its row: P and A,
+   where V is M^-1 (P - A).  Or of t and q at its points, which is as large in all modes.  all: the
+   size of the velocity, or in positions of p.                                                 */
+static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real low, gvi_real all)
+{
+    const struct gvi__private *in = &st->in;
+    const int forces = in->stages == 1;
+    const gvi_real *row = (forces ? in->work.F : in->work.V) + i*in->R;
+    const gvi_real h = GVI_ABS(in->sized.h), inertia = gvi__place_inertia(st, i),
+                   p = GVI_ABS(in->state.p[i]), dp = GVI_ABS(in->step.p[i]),
+                   first = row[0], last = row[st->r - 1];
+    gvi_real terms = GVI_ABS(first) + GVI_ABS(last), change = GVI_ABS(last - first),
+             apart = GVI_ABS(in->state.q[i])/all;
+    if (forces) {
+        terms *= h;
+        change *= h;
+        apart *= inertia;
+    } else {
+        terms += (2*p + dp)/inertia;
+        change += dp/inertia;
+    }
+
+    apart = (GVI_ABS(st->t) + apart)/h;
+    return high <= 4*GVI__EPS*terms || (low <= 4*high && high <= 4*GVI__EPS*change*apart);
+}
+
+/* Mode K of coordinate i by the change of mode K - 1 since the step before; *was: its size there,
+   in steps of this length.                                                                    */
+static gvi_real gvi__mode_since(const gvi_stepper *st, int i, gvi_real *was)
+{
+    const struct gvi__dial *dial = &st->in.dial;
+    const gvi_real h = st->in.sized.h;
+    if (!gvi__nonzero(dial->span)) return 0;
+
+    const gvi_real before = dial->before[i]*gvi__power(h/dial->span, dial->top - 1),
+                   change = (dial->now[i] - before)*(2*h/(h + dial->span));
+    *was = GVI_ABS(before);
+    return GVI_ABS(change)/(gvi_real)(4*dial->top - 2);
+}
+
+// rho^2 of gvi__resolution by the modes of one step
+static gvi_real gvi__mode_fall(int top, const gvi_real *y)
+{
+    const gvi_real high = y[0] + y[1], low = y[2] + y[3], lower = y[4] + y[5],
+                   fall = low > high ? high/low : 1, inside = y[0] < y[1] ? y[0]/y[1] : 1,
+                   flat = GVI_SQRT(inside*fall*GVI_SQRT(fall));
+    if (top < 6) return gvi__larger(flat, fall);
+    if (lower <= high) return 1;
+
+    const gvi_real before = lower > low ? low/lower : 1,
+                   one = gvi__larger(GVI__STEADY*gvi__larger(before, fall), flat);
+    return gvi__larger(GVI_SQRT(high/lower), one);
+}
+
+/* What coordinate i lacks of its velocity, of which y are the modes K, K - 1 .., `ends` at both
    ends and `turn` from end to end.  all: its size.                                            */
-static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real ends, gvi_real turn,
-                            gvi_real *all)
+static gvi_real gvi__missed(const gvi_stepper *st, int i, const gvi_real *y, gvi_real ends,
+                            gvi_real turn, gvi_real *all)
 {
     const int top = st->in.dial.top, e = 2*st->s - top,
               stiff = st->formulation == GVI_NEWTON && st->in.chosen != GVI_NEWTON
                       && !gvi__constrained(st);
-    gvi_real high = y[0] + y[1], low = y[2] + y[3], fall = 1;                    // fall: rho^2
+    gvi_real high = y[0] + y[1], low = y[2] + y[3], since = 0, was = 0;
 
     *all = ends + high + low;
+    if (top < 5) since = gvi__mode_since(st, i, &was);
     if (top < 4) {
-        const gvi_real one = y[1];                               // alone, a mode may pass 0
-        low = top == 3 ? one + y[2] : turn;
-        high = y[0];
-        if (one > 0) high += one*(one/(top == 3 ? low : *all))/4;
+        high = y[0] + since;                                     // alone, a mode may pass 0
+        low = top == 3 ? y[1] + y[2] : turn;
     }
-    // rounding, a force as simple as the curve: next to nothing, whatever h
-    if (high <= 4*GVI__EPS*(st->in.stages == 1 ? turn + low : *all))
-        return high*GVI__EPS*GVI__EPS;
+    // next to nothing: a force as simple as the curve, and no shorter step shows more of it
+    if (!(high > 0) || gvi__modes_end(st, i, high, low, *all)) return high*GVI__EPS*GVI__EPS;
     if (stiff) return high;
 
-    if (low > high) fall = high/low;
+    gvi_real fall = low > high ? high/low : 1;                   // rho^2
     if (top == 2) fall *= GVI_SQRT(fall);                        // from y_1, or nearly
-    const gvi_real inside = y[0] < y[1] ? y[0]/y[1] : 1,
-                   flat = GVI_SQRT(inside*fall*GVI_SQRT(fall));
-    if (top >= 6) {
-        const gvi_real lower = y[4] + y[5], before = lower > low ? low/lower : 1;
-        fall = GVI__STEADY*gvi__larger(before, fall);
-        fall = lower > high ? gvi__larger(GVI_SQRT(high/lower), fall) : 1;
+    if (top >= 5) fall = gvi__mode_fall(top, y);
+    else {
+        const gvi_real half = (y[0] + since)/(2*(y[1] + was));
+        fall = gvi__smaller(gvi__larger(half*half, fall), 1);
     }
-    fall = gvi__larger(flat, fall);
+
     gvi_real lacks = gvi__power(fall, e/2)*10;
     if (e & 1) lacks *= GVI_SQRT(fall);
     return high*gvi__smaller(lacks, 1);
@@ -8540,21 +8633,22 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
    bend inside a step leave a tail that is flat there.  The step lacks about y_2s, which its points
    take for modes that they see: high rho^e; ten times that, since a short tail may be flatter than
    it looks.  Stiff forces, for which Newton's method had to take over, turn all of y_s into an
-   error: high.  (With constraints it takes over for other reasons.)  Below K = 4 single modes
-   count, below 6 two pairs.  In positions the modes are those of M v, from the forces.  Where
-   motion is far below max |v| + max |q|/h, each times sqrt(M_ii), and below max |v| + |q_i|/h, so
-   that neither a light body nor one near the origin counts as at rest, an error of some s^2 eps of
-   the smaller of these is rounding, and relative to it.  Under constraints rounding of g over h is
-   in every velocity, and is all there is of one that starts from rest: no error of h.         */
+   error: high.  (With constraints it takes over for other reasons.)  Below K = 6 two pairs count;
+   below 5 low is a constant force as well, which falls nowhere, and below 4 single modes count.
+   There y_(K-1) of the step before, y', says more: |y_(K-1) - y'|/(4 K - 2) is a mode K, too, and
+   rho at least half of both over |y_(K-1)| + |y'|.  In positions the modes are those of M v, from
+   the forces.  Where motion is far below max |v| + max |q|/h, each times sqrt(M_ii), and below max
+   |v| + |q_i|/h, so that neither a light body nor one near the origin counts as at rest, some eps
+   of the smaller of these are rounding of forces that cancel.  Under constraints rounding of g over
+   h is in every velocity, and is all there is of one that starts from rest: no error of h.     */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
-    const int s = st->s, R = in->R, top = in->dial.top, forces = in->stages == 1,
+    const int R = in->R, top = in->dial.top, forces = in->stages == 1,
               constrained = gvi__constrained(st),
               pulled = forces & constrained ? top < 6 ? top : 6 : 0;
     const gvi_real *row = forces ? in->work.F : in->work.V;
-    const gvi_real h = GVI_ABS(in->sized.h), unit = forces ? h : 1,
-                   rounding = (gvi_real)(s*s)*GVI__EPS;
+    const gvi_real h = GVI_ABS(in->sized.h), unit = forces ? h : 1;
     gvi_real *missed = in->answer, *size = missed + st->n, *mass = size + st->n;
     gvi_real fastest = 0, farthest = 0, v = 0, worst = 0;
     for (int i = 0; i < st->n; ++i, row += R) {
@@ -8564,6 +8658,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
             GVI__UNROLL for (int m = 0; m < 6; ++m) y[m] += a[m]*row[j];
         for (int m = 0; m < pulled; ++m)
             y[m] += in->table.inv_gamma[top - m]*gvi__constraint_mode(st, i, top - m);
+        in->dial.now[i] = unit*y[1];
         GVI__UNROLL for (int m = 0; m < 6; ++m) y[m] = unit*GVI_ABS(y[m]);
         if (forces) {
             start = in->state.p[i];
@@ -8571,8 +8666,8 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
         }
         mass[i] = GVI_SQRT(gvi__place_inertia(st, i));
         const gvi_real scale = forces ? 1/mass[i] : mass[i];
-        missed[i] = scale*gvi__missed(st, y, GVI_ABS(start) + GVI_ABS(end), GVI_ABS(end - start),
-                                      size + i);
+        missed[i] = scale*gvi__missed(st, i, y, GVI_ABS(start) + GVI_ABS(end),
+                                      GVI_ABS(end - start), size + i);
         size[i] *= scale;                         // p over M
         fastest = gvi__larger(size[i], fastest);
         farthest = gvi__larger(GVI_ABS(in->state.q[i])*mass[i], farthest);
@@ -8586,11 +8681,11 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
                        around = gvi__smaller(own, whole);
         const int rests = size[i] < around/GVI__RESTS;
 
-        // what rounding of g, or of forces of constraint, makes of it: less the longer a step is
-        gvi_real noise = shift ? mass[i]*shift[i]/h : 0;
-        if (shift && (forces || rests)) noise = gvi__larger(GVI__EPS*whole, noise);
-        if (missed[i] <= GVI__PULLED*noise) continue;
-        if (rests && missed[i] <= GVI__CANCELS*rounding*around) size[i] = around;
+        // what rounding makes of it: of g, of forces that cancel, of those of constraint anywhere
+        gvi_real rounding = shift ? mass[i]*shift[i]/h : 0;
+        if (rests || (shift && forces))
+            rounding = gvi__larger(GVI__EPS*(shift ? whole : around), rounding);
+        if (missed[i] <= GVI__PULLED*rounding) missed[i] *= GVI__EPS*GVI__EPS;
         worst = gvi__larger(missed[i]/size[i], worst);
     }
     return worst;
@@ -8602,6 +8697,8 @@ static gvi_status gvi__dial_accept(gvi_stepper *st)
     if (st->resolution > st->in.desc.resolution)
         return gvi__report_status(st, GVI_E_RESOLUTION);
     st->counters.worst_resolution = gvi__larger(st->resolution, st->counters.worst_resolution);
+    gvi__copy((size_t)st->n, st->in.dial.now, st->in.dial.before);
+    st->in.dial.span = st->in.sized.h;
     return GVI_OK;
 }
 
@@ -8623,10 +8720,10 @@ static gvi_real gvi__length(gvi_real k)
 }
 
 /* How many rungs up, after a step that succeeded.  `room`: up to where the resolution, of order
-   2s - 1 in h, reaches its limit, less a margin.  What was lost of it since the last step will be
-   lost again; a first loss may be chance, and shrinks h by little.  From 0 to 4 rungs h stays as
-   it is, and above where the step before left less.  Work over time is iterations/h: from
-   GVI__MANY of them on h does not grow, from 5/3 of that on it shrinks a little.              */
+   2s - 1 in h, reaches its limit, less a margin.  What was lost of it since the step before will be
+   lost again; two octaves are too many to be a measure.  From 0 to GVI__BAND rungs h stays as it
+   is.  Work over time is iterations/h: from GVI__MANY of them on h does not grow, from 5/3 of that
+   on it shrinks a little.                                                                     */
 static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 {
     struct gvi__dial *dial = &st->in.dial;
@@ -8634,22 +8731,17 @@ static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
     const int many = st->in.stages == 2 ? GVI__MANY*3/2 : GVI__MANY,
               newton = st->formulation == GVI_NEWTON;
     gvi_real left = room, up = 0;
-    int lasts = 1;
 
-    if (room < 2*GVI__BAND) {
-        const gvi_real loss = dial->reach - (at + room);
-        lasts = dial->reach - at > GVI__BAND;
-        if (loss > 0) left -= loss;
-        if (room > 0 && dial->loss <= 0) left = gvi__larger(left, -GVI__DOUBT);
-        dial->loss = loss;
+    if (room < 2*GVI__GROWS) {
+        left -= gvi__larger(dial->reach - (at + room), 0);
         dial->reach = at + room;
     }
-    if (lasts && left > GVI__BAND) up = gvi__smaller(left - GVI__SHY, GVI__BAND);
-    if (left < 0) up = gvi__larger(left - 1, -GVI__FALL);
 
-    dial->shorter = newton ? 0 : GVI__SHORTER;
+    if (left > GVI__BAND) up = gvi__smaller(left - GVI__BAND, GVI__GROWS);
+    if (left < 0) up = gvi__larger(left - 1, -GVI__FALL);
     if (!newton && st->iterations >= many) up = gvi__smaller(up, 0);
     if (!newton && st->iterations >= many*5/3) up = gvi__smaller(up, -1);
+
     dial->wait -= dial->wait > 0;
     if (dial->wait > 0 && up > 0)
         up = gvi__larger(gvi__smaller(up, dial->barrier - 1 - at), 0);
@@ -8666,15 +8758,16 @@ static gvi_real gvi__rungs_down(gvi_stepper *st, gvi_status status, gvi_real at,
     dial->wait = GVI__WAIT << dial->again;
     dial->barrier = at;
     if (status == GVI_E_RESOLUTION) return gvi__larger(gvi__smaller(room, 0) - 1, -GVI__FALL);
-    if (dial->shorter == 0) return -GVI__FALL;
 
-    dial->shorter -= 1;
-    return -3;
+    dial->reach = gvi__larger(dial->reach, at);   // the resolution may have allowed it
+    return dial->put_off ? -3 : -GVI__FALL;
 }
 
-// st.next after a step of length h
+// st.next after a step of length h; one that an end has shortened says nothing of longer ones
 static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
 {
+    if (status == GVI_OK && h < st->next) return;
+
     const gvi_real seen = gvi__larger(st->resolution, GVI__MIN), at = gvi__rungs(h);
     const gvi_real most = gvi__rungs(st->in.desc.resolution) - gvi__rungs(seen);
     // the modes end at rounding: above GVI__DEEP the resolution falls no faster than there
@@ -8682,26 +8775,34 @@ static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
     const gvi_real room = most/(gvi_real)(2*degree - 1) - GVI__MARGIN,
                    up = status == GVI_OK ? gvi__rungs_up(st, at, room)
                                          : gvi__rungs_down(st, status, at, room);
-    const gvi_real next = gvi__length(at + up);
-    if (up < 0 || (up > 0 && h >= st->next)) st->next = next;
+    if (gvi__nonzero(up)) st->next = gvi__length(at + up);
 }
 
 /* A first length: 1/16 of the time in which the forces would make the kinetic energy that there is;
-   1/1024 of the way where that is less, or from rest.                                         */
+   1/1024 of the way where that is less, or from rest.  Both by what is the same in every gauge:
+   v.M v, and how fast v changes with p as the forces drive that.                              */
 GVI__COLD gvi_real gvi__first_length(gvi_stepper *st, gvi_real left)
 {
-    gvi_real *v = st->in.answer, *a = v + st->n;
+    const int n = st->n, inertia = st->in.desc.mass.kind != GVI_MASS_NONE;
+    gvi_real *v = st->in.answer, *later = v + n, *p = later + n;
+    const gvi_real longest = left/1024;
     gvi_points at = gvi__one_point(st, &st->t, st->q);
+
     gvi__velocity_guess(st, v);
     gvi_status status = gvi__velocity(st, st->t, st->q, st->p, v);
     at.v = v;
+    if (status == GVI_OK) status = gvi__evaluate(st, &at, ~0u, 1);               // M v
+    const gvi_real moving = GVI_ABS(gvi__dot(n, inertia ? at.dldv : st->p, v));
+
     if (status == GVI_OK) status = gvi__evaluate(st, &at, 0, 1);
-    gvi__copy((size_t)st->n, at.f, a + st->n);
-    gvi__copy((size_t)st->n, v, a);
-    if (status == GVI_OK) status = gvi__velocity(st, st->t, st->q, a + st->n, a);
-    const gvi_real moving = GVI_ABS(gvi__dot(st->n, st->p, v)),
-                   pushing = GVI_ABS(gvi__dot(st->n, a + st->n, a)),
-                   time = GVI_SQRT(moving/pushing)/16, longest = left/1024;
+    for (int i = 0; i < n; ++i) {
+        later[i] = v[i];
+        p[i] = st->p[i] + longest*at.f[i];
+    }
+    if (status == GVI_OK) status = gvi__velocity(st, st->t, st->q, p, later);
+    for (int i = 0; i < n; ++i) later[i] = (later[i] - v[i])/longest;
+    const gvi_real pushing = GVI_ABS(gvi__dot(n, at.f, later)),
+                   time = GVI_SQRT(moving/pushing)/16;
     return status == GVI_OK && time > 0 && time < longest ? time : longest;
 }
 
@@ -8721,10 +8822,10 @@ GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
         gvi_real h = st->next;
         if (!clock && left < h*2) h = left/2;
         if (!clock && left < st->next*(gvi_real)1.0625) h = left;
-        st->in.dial.put_off = st->in.dial.shorter > 0;
+        st->in.dial.put_off = st->in.dial.reach - gvi__rungs(h) < GVI__SHORTER;
         const gvi_status status = gvi_step(st, way > 0 ? h : -h);
-        st->in.dial.put_off = 0;
         gvi__set_next(st, status, h);
+        st->in.dial.put_off = 0;
         if (status == GVI_OK) {
             if (!clock && h >= left) {
                 st->t_low += st->t - t_end;
@@ -9688,8 +9789,10 @@ GVI__COLD void gvi__place_layout(struct gvi__private *in, gvi__arena *a)
     if (in->rolling.bits) gvi__rolling_layout(in, a);
 #endif
 #ifndef GVI_NO_DIAL
-    const size_t R = (size_t)GVI__ROW(in->desc.rule.points);
+    const size_t R = (size_t)GVI__ROW(in->desc.rule.points), n = (size_t)in->desc.n;
     in->dial.high = gvi__take(a, in->desc.resolution > 0 ? 6 : 0, R);
+    in->dial.now = gvi__take(a, in->desc.resolution > 0, n);
+    in->dial.before = gvi__take(a, in->desc.resolution > 0, n);
 #endif
 #ifndef GVI_NO_NEWTON
     if (in->newton.covers) gvi__newton_layout(in, gvi__held_rows(in), a);        // J comes last
@@ -9737,9 +9840,8 @@ GVI__COLD void gvi__place_started(gvi_stepper *st)
 #endif
 #ifndef GVI_NO_DIAL
     st->in.dial.reach = st->in.dial.barrier = -GVI__MAX;
-    st->in.dial.loss = 0;
+    st->in.dial.span = 0;
     st->in.dial.wait = st->in.dial.again = 0;
-    st->in.dial.shorter = GVI__SHORTER;
 #endif
 }
 
@@ -9842,7 +9944,7 @@ static gvi_status gvi__place_predict(gvi_stepper *st, const gvi__origin *from, g
 static gvi_status gvi__place_evaluate(gvi_stepper *st, const gvi__origin *from, gvi_points *at)
 {
     gvi_status status = GVI_OK;
-    GVI__MOMENTA(status = gvi__momenta_evaluate(st, at))
+    GVI__MOMENTA(status = gvi__momenta_evaluate(st, from, at))
     if (status != GVI_OK) return status;
     GVI__LAGRANGIAN(
         at->dldv = st->in.lagrangian.A;
@@ -9860,10 +9962,11 @@ static int gvi__place_holds(const gvi_stepper *st)
     return 0;
 }
 
-// is there more than the rows show?
+// is there more than D shows?
 static int gvi__place_moves(const gvi_stepper *st)
 {
     GVI__MOMENTA(if (st->in.momenta.moves) return 1)
+    GVI__CONSTRAINTS_ON(if (gvi__rolls(st)) return gvi__a_row_falls(st))
     return 0;
 }
 
