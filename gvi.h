@@ -737,7 +737,7 @@ typedef struct gvi_effect {
     gvi_hessian_fn *hessian;  /* for Newton; NULL: differences of f and dldv, which must
                                  then be exact nearly to rounding               */
     void           *user;     /* handed to the callbacks                        */
-    int             rows;     /* of constraints of both kinds; all together at most n */
+    int             rows;     /* of constraints of both kinds; they may depend on each other */
 } gvi_effect;
 
 typedef enum gvi_mass_kind {
@@ -785,7 +785,7 @@ typedef enum gvi_formulation {
     GVI_AUTO       = 0,   /* the cheapest that covers the scene; Newton if that
                              contracts badly and s n <= 1024, since Newton's memory
                              grows like (s n)^2: above that, pin GVI_NEWTON.
-                             With m constraints, read n + m for n               */
+                             With m constraints if s (n + m)^3 <= 2880 n        */
     GVI_EXPLICIT   = 1,
     GVI_POSITIONS  = 2,
     GVI_VELOCITIES = 3,   /* forces that read v; Lagrangian terms take momenta or Newton */
@@ -1140,7 +1140,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
    The first start with a constraint, and gvi_project before it, see that it fills all points, and
    compare its jacobian and rate with differences of g next to (t, q).  An entry that is off by more
    than 1/512 of itself, and more than rounding hides (in float most of 1 %), is refused:
-   GVI_E_ARGUMENT, its row in fault.coordinate.  Later steps do not look again.
+   GVI_E_ARGUMENT, its row in fault.coordinate.  Later starts do not look again.
    GVI_E_CONSTRAINT where q or v is off a constraint: q by more than 4096 roundings of g's
    terms and 4 of the largest |q_i| sqrt(M_ii), v if the part that G v + dg/dt = 0 removes has more
    than (4096 eps)^2 of the kinetic energy.                                                    */
@@ -1723,7 +1723,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__LINEAR ((gvi_real)0.015625)   // the equations are all but linear
 #define GVI__CLOSE ((gvi_real)0.03125)     // of a curve, from its prediction: on the same branch
 #define GVI__SHORT 64                      // h over this: free motion leads to the motion
-#define GVI__FADES 64                      // of a row where a step failed: so much earlier it ends
+#define GVI__FADES (1 << GVI__DIG/6)       // a third of the digits: where a step failed, a row ends
 #define GVI__LOST 4                        // of a pivot's entry what is left: rank may be changing
 #define GVI__WRONG 512                     // of an entry of G, what it is off times this: wrong
 
@@ -4226,6 +4226,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 
 GVI_DEF gvi_status gvi_steps(gvi_stepper *st, gvi_real h, int count)
 {
+    if (st && st->in.started && count == 0) return GVI_OK;       // st says what it said
     gvi_status status = gvi__ready(st, st && st->in.started);
     if (status != GVI_OK) return status;
     if (count < 0) return gvi__refuse_call(st, "count is negative");
@@ -4553,7 +4554,7 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
                 next = d*root;
                 if (GVI_ABS(d)*root < 2*GVI__EPS*GVI_ABS(was)) next = -2*GVI__EPS*was;
             } else if (rests && push > 0 && moved > 16*push) {
-                next = d*(push/moved);                     // from rest, as f takes it
+                next = d*(push/moved);                     // from rest, as f takes it, or P shows
             } else if (moved < root*GVI_ABS(base[j])/2) {
                 next = d/GVI_SQRT(root);
             } else break;
@@ -6290,13 +6291,17 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
 
 /* ---- as a solver ---- */
 
-// after a fixed point: only if its matrices are small, nothing is pinned, and there is no clock
+/* After a fixed point, if nothing is pinned and there is no clock: where its matrices are small,
+   s n <= 1024.  Under constraints a step mostly fails because rows turn far in it, and a shorter
+   one has no need of Newton: there LU, (s (n + m))^3/3, may cost as much as halving h four times,
+   16 steps of 60 iterations of s^2 n.                                                          */
 GVI__COLD int gvi__newton_follows(const struct gvi__private *in, int held)
 {
     const gvi_desc *d = &in->desc;
-    return d->formulation == GVI_AUTO && in->stages > 0 && in->chosen != GVI_NEWTON
-           && d->iterations == 0 && !gvi__of_kind(in, GVI_CLOCK)
-           && d->degree <= 1024/(d->n + held);
+    const gvi_real n = (gvi_real)d->n, all = n + (gvi_real)held;
+    if (d->formulation != GVI_AUTO || in->stages == 0 || in->chosen == GVI_NEWTON) return 0;
+    if (d->iterations > 0 || gvi__of_kind(in, GVI_CLOCK) || d->degree > 1024/d->n) return 0;
+    return held == 0 || (gvi_real)d->degree*(all*all*all) <= 3*16*60*n;
 }
 
 GVI__COLD void gvi__newton_layout(struct gvi__private *in, int held, gvi__arena *a)
@@ -7022,7 +7027,7 @@ GVI__CALLED int gvi__a_row_falls(const gvi_stepper *st)
 }
 
 /* What constraints add to the floor of coordinate i, whatever its amplitude, as a length: h^2/m
-   times eps of a force of constraint; and for `moves`, its last change where that came from the
+   times eps of the forces of its rows; and for `moves`, their last change where that came from the
    rounding of g, which nearly dependent rows make large.                                      */
 static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m,
                                 gvi_real eps, int moves)
@@ -7030,9 +7035,10 @@ static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_re
     const struct gvi__private *in = &st->in;
     gvi_real push = 0;
     if (!gvi__constrained(st)) return 0;
+    if (i == 0) gvi__force_sizes(st, in->con.force + st->n*in->R, in->R, in->con.plus);
     if (i == 0 && moves) gvi__constraints_moved(st, in->con.W);
     for (int e = 0; e < st->s; ++e) {
-        gvi_real force = eps*GVI_ABS(h*in->con.force[i*in->R + e]);
+        gvi_real force = eps*GVI_ABS(h*in->con.plus[i*in->R + e]);
         if (moves) force += in->con.W[i*in->con.C + e]/GVI_ABS(in->con.hw[e]);
         push = gvi__larger(GVI_ABS(h)*force/m, push);
     }
@@ -7101,7 +7107,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
     const int n = st->n, m = in->con.m;
     if (!gvi__constrained(st)) return GVI_OK;
     gvi_real before = 0, least = GVI__MAX, *Q = in->work.Q, *z = in->con.rho, *left = in->con.y,
-             *d = in->con.W, *unit = d + n, *g = in->con.g, *path = in->answer,
+             *unit = z + m, *d = in->con.W, *g = in->con.g, *path = in->answer,
              *G = in->con.G1 + m*n;                  // G0 is before it
     const gvi_real t = from->t + (from->t_low + h);
     gvi_status status = gvi__constraints_at(st, from->t, from->q, NULL, NULL, in->con.drops);
@@ -7245,7 +7251,7 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
    about to depend on them: the rank changes, a change point of a linkage.  Its multiplier is noise
    over what is left, more of it the shorter a step is, so no h mends it.  Rows that were that near
    where the motion started may stay so.  From gram1; `margin`: where a step has failed, that much
-   earlier; 0: a start, to be remembered.                                                      */
+   earlier, by a third of the digits; 0: a start, to be remembered.                            */
 GVI__CALLED gvi_status gvi__check_rank(gvi_stepper *st, int margin)
 {
     const int m = st->in.con.m;
@@ -7420,88 +7426,109 @@ GVI__COLD int gvi__unfilled_row(gvi_stepper *st, gvi_real t, const gvi_real *q, 
     return wrong;
 }
 
-/* Are G and dg/dt the derivatives of g?  When a constraint is first started with, they are compared
-   with differences of g along each coordinate and along t, to both sides by d, d/8, d/64 ... until
-   all rows agree; next to the state, where an entry that is 0 there is not.  An entry is wrong
-   where, twice in a row, the slopes to both sides and their mean at the last d agree to 1/64, and
-   the entry misses them by four times that, the rounding of g's known terms, and 1/512: so kinks,
-   noise, waves shorter than d, and moves that the rounding of g hides prove nothing.          */
+/* The row whose derivative by coordinate i, or by t for i = n, is not the one written, or -1: from
+   differences to both sides by d, d/8, d/64 ... until all rows agree.  An entry is wrong where,
+   twice in a row, the slopes to both sides, their mean at the last d, and what is written at both
+   ends agree to 1/64, and the entry misses them by four times that, the rounding of g's known
+   terms, and 1/512; and where it agrees at no shorter d that rounding leaves.  So kinks, noise,
+   waves shorter than d, and moves that the rounding of g hides prove nothing.                  */
+GVI__COLD int gvi__wrong_derivative(gvi_stepper *st, gvi_real from_t, int i, gvi_real d)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m, next = i < n ? n : 1;
+    gvi_real *g = in->con.g, *G = in->con.G1, *at = in->con.W, *was = in->con.rho, *rate = was + m,
+             *mean = rate + m, *ahead = in->con.y, *turn = g + 2*m, now = from_t, off = 0,
+             *moved = i < n ? at + i : &now;
+    const gvi_real x = *moved, *from = at + n, *written = i < n ? G + i : rate,
+                   *there = i < n ? G + m*n + i : g + m, least = GVI__SURE*GVI__EPS*GVI_ABS(x);
+    int wrong = -1;
+
+    for (int k = 0, agree = 0, known = 0, suspect = -1; k < 40 && d > least && !agree; ++k) {
+        int doubted = -1;
+        *moved = x + d;
+        gvi_status status = gvi__evaluate_constraints(st, 1, 1, &now, at, G + m*n);
+        for (int a = 0; a < m; ++a) {
+            ahead[a] = (g[a] - was[a])/(*moved - x);
+            turn[a] = GVI_ABS(there[a*next] - written[a*next]);
+        }
+
+        *moved = x - d;
+        if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &now, at, G + m*n);
+        agree = status == GVI_OK;
+        for (int a = 0; a < m && status == GVI_OK; ++a) {
+            const gvi_real entry = written[a*next], back = (g[a] - was[a])/(*moved - x),
+                middle = ahead[a]/2 + back/2, miss = GVI_ABS(entry - middle),
+                bend = GVI_ABS(ahead[a] - back) + GVI_ABS(middle - mean[a]),
+                apart = gvi__larger(bend, turn[a]/2 + GVI_ABS(there[a*next] - entry)/2),
+                terms = gvi__terms(st, 1, from_t, from, G, rate, a) + GVI_ABS(was[a]),
+                noise = GVI__SOLVED*GVI__EPS*(terms/d),
+                none = (GVI_ABS(entry)/2 + GVI_ABS(middle)/2)/GVI__WRONG + noise;
+            if (!(miss <= none)) agree = 0;
+            if (a == wrong && miss <= none && noise < off/2) wrong = -1;
+            if (known && doubted < 0 && 64*apart < GVI_ABS(middle) && miss > none + 4*apart)
+                doubted = a;
+            if (a == doubted && a == suspect && wrong < 0) {
+                wrong = a;
+                off = miss;
+            }
+            mean[a] = middle;
+        }
+        suspect = doubted;
+        known = status == GVI_OK;
+        d /= 8;
+    }
+
+    *moved = x;
+    return wrong;
+}
+
+/* Are G and dg/dt the derivatives of g?  When a constraint is first started with, next to the
+   state, where an entry that is 0 there is not.                                               */
 GVI__COLD gvi_status gvi__check_derivatives(gvi_stepper *st, gvi_real t, const gvi_real *q)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     const gvi_counters counters = st->counters;          // no step's work
-    gvi_real *g = in->con.g, *G = in->con.G1, *at = in->con.W, *from = at + n, *was = in->con.rho,
-             *rate = was + m, *mean = rate + m, *ahead = in->con.y, largest = 0, from_t = t;
+    gvi_real *g = in->con.g, *at = in->con.W, *from = at + n, *was = in->con.rho, *rate = was + m,
+             largest = 0, from_t = t;
+    const gvi_real root = GVI_SQRT(GVI_SQRT(GVI__EPS));
+    const char *slip = NULL;
     gvi_status status = GVI_OK;
+    int row = -1;
 
     for (int i = 0; i < n; ++i) largest = gvi__larger(GVI_ABS(q[i]), largest);
     for (gvi_real part = 1/(gvi_real)64; ; part = 0) {           // at the state, if not next to it
         from_t = t + part*gvi__size_of(t, 1);
         for (int i = 0; i < n; ++i)
             from[i] = q[i] + part*gvi__size_of(q[i], largest)*(1 + (gvi_real)i/(gvi_real)n);
-        status = gvi__evaluate_constraints(st, 1, 1, &from_t, from, G);
+        status = gvi__evaluate_constraints(st, 1, 1, &from_t, from, in->con.G1);
         if (!(part > 0) || (status == GVI_OK && gvi__first_non_finite(m, g) < 0)) break;
     }
 
-    (void)gvi__find_columns(st, 1, 1, G);
+    (void)gvi__find_columns(st, 1, 1, in->con.G1);
     gvi__copy((size_t)m, g, was);
     gvi__copy((size_t)m, g + m, rate);
-    if (status == GVI_OK) {
-        const int row = gvi__unfilled_row(st, from_t, from, was, rate);
-        st->counters = counters;
-        if (row >= 0) {
-            gvi__report_row(st, GVI_E_ARGUMENT, row, GVI_FAULT_NONE);
-            st->fault.argument = "constraint: fills not all points: row a of point k < x->count is "
-                                 "at [a*x->stride + k]";
-            return GVI_E_ARGUMENT;
-        }
-    }
-
     gvi__copy((size_t)n, from, at);
-    for (int i = 0; i <= n && status == GVI_OK; ++i) {
-        const gvi_real x = i < n ? from[i] : from_t, *entries = i < n ? G + i : rate,
-                       least = GVI__SURE*GVI__EPS*GVI_ABS(x);
-        gvi_real now = from_t, *moved = i < n ? at + i : &now,
-                 d = GVI_SQRT(GVI_SQRT(GVI__EPS))*gvi__size_of(x, i < n ? largest : 1);
-        for (int k = 0, agree = 0, known = 0, suspect = -1; k < 40 && d > least && !agree;
-             ++k, d /= 8) {
-            int wrong = -1;
-            *moved = x + d;
-            status = gvi__evaluate_constraints(st, 1, 1, &now, at, G + m*n);
-            for (int a = 0; a < m; ++a) ahead[a] = (g[a] - was[a])/(*moved - x);
-            *moved = x - d;
-            if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &now, at, G + m*n);
-            agree = status == GVI_OK;
-            for (int a = 0; a < m && status == GVI_OK; ++a) {
-                const gvi_real entry = entries[i < n ? a*n : a],
-                    back = (g[a] - was[a])/(*moved - x),
-                    middle = ahead[a]/2 + back/2, miss = GVI_ABS(entry - middle),
-                    apart = GVI_ABS(ahead[a] - back) + GVI_ABS(middle - mean[a]),
-                    terms = gvi__terms(st, 1, from_t, from, G, rate, a) + GVI_ABS(was[a]),
-                    none = (GVI_ABS(entry)/2 + GVI_ABS(middle)/2)/GVI__WRONG
-                           + GVI__SOLVED*GVI__EPS*(terms/d);
-                if (!(miss <= none)) agree = 0;
-                if (known && wrong < 0 && 64*apart < GVI_ABS(middle) && miss > none + 4*apart)
-                    wrong = a;
-                mean[a] = middle;
-            }
-            if (wrong >= 0 && wrong == suspect) {
-                st->counters = counters;
-                gvi__report_row(st, GVI_E_ARGUMENT, wrong, GVI_FAULT_NONE);
-                st->fault.argument =
-                    i < n ? "constraint: a jacobian is not dg/dq, in fault.coordinate's row"
-                          : "constraint: a rate is not dg/dt, in fault.coordinate's row";
-                return GVI_E_ARGUMENT;
-            }
-            suspect = wrong;
-            known = status == GVI_OK;
-        }
-        *moved = x;
-        status = GVI_OK;
+    if (status == GVI_OK) {
+        row = gvi__unfilled_row(st, from_t, from, was, rate);
+        slip = "constraint: fills not all points: row a of point k < x->count is at "
+               "[a*x->stride + k]";
+    }
+    for (int i = 0; i <= n && status == GVI_OK && row < 0; ++i) {
+        const gvi_real size = i < n ? gvi__size_of(from[i], largest) : gvi__size_of(from_t, 1);
+        row = gvi__wrong_derivative(st, from_t, i, root*size);
+        slip = i < n ? "constraint: a jacobian is not dg/dq, in fault.coordinate's row; if it is, "
+                       "start once where that shows"
+                     : "constraint: a rate is not dg/dt, in fault.coordinate's row; if it is, "
+                       "start once where that shows";
     }
 
     st->counters = counters;
+    if (row >= 0) {
+        gvi__report_row(st, GVI_E_ARGUMENT, row, GVI_FAULT_NONE);
+        st->fault.argument = slip;
+        return GVI_E_ARGUMENT;
+    }
     gvi__forget_columns(st);
     return gvi__report_status(st, GVI_OK);
 }
@@ -7614,8 +7641,8 @@ GVI__OFFERED const gvi_real *gvi__constraint_shift(const gvi_stepper *st)
 GVI__COLD const char *gvi__wrong_in_constraint(const struct gvi__private *in, int e)
 {
     const gvi_effect *effect = in->desc.effects + e;
-    if (effect->rows < 1 || effect->rows > in->desc.n - in->con.m)
-        return "effect: rows is not 1 to what is left of n";
+    if (effect->rows < 1 || effect->rows > 0x7FFF - in->con.m)
+        return "effect: rows is below 1, or all rows are more than 32,767";
     if (!effect->points) return "effect: this kind needs points, not point";
     return NULL;
 }
@@ -9723,7 +9750,8 @@ GVI__COLD gvi_status gvi__place_chosen(struct gvi__private *in, int order, gvi_f
 #endif
     if (matrices && d->n > 0x7FFF) wrong = "n is above 32,767, and matrices may be needed";
 #ifndef GVI_NO_CONSTRAINTS
-    if (in->con.m > 0x7FFFFFFF/(GVI__ROW(d->degree + 1)*d->n))                   // of G
+    const int widest = d->n > in->con.m ? d->n : in->con.m;                      // of G, or of A
+    if (in->con.m > 0x7FFFFFFF/(GVI__ROW(d->degree + 1)*widest))
         wrong = "n, degree and rows of constraints are too large together";
 #endif
     if (d->resolution > 0) {

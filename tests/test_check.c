@@ -672,7 +672,7 @@ TEST(scenes_that_cannot_be_are_refused)
     const gvi_mass no_matrix = { .kind = GVI_MASS_DIAGONAL }, no_callback = { .kind = GVI_MASS_POSITION };
     bad[0].points = NULL;
     bad[1].kind = (gvi_kind)77;
-    bad[2] = (gvi_effect){ .kind = GVI_CONSTRAINT, .points = each, .rows = 200 };
+    bad[2] = (gvi_effect){ .kind = GVI_CONSTRAINT, .points = each, .rows = 0x8000 };
     for (int i = 0; i < COUNT(bad); ++i) {
         build_own(2, good, (gvi_mass){ 0 });
         made.effects[0] = bad[i];

@@ -410,6 +410,8 @@ TEST(steps_in_a_row_end_at_the_first_that_fails)
     assert_true(a.t == 0.875L && a.q[0] == b.q[0] && a.p[0] == b.p[0] && a.counters.steps == 7 && a.counters.failures == 1);
     assert_int_equal(a.fault.effect, 0);
     SAME_STATE(&a) assert_int_equal(gvi_steps(&a, 0.125L, 2), GVI_E_CALLBACK);
+    assert_ok(gvi_steps(&a, 0.125L, 0));          // does nothing: the failure stays where it can be read
+    assert_true(a.status == GVI_E_CALLBACK && a.fault.effect == 0);
     assert_ok(gvi_steps(&a, -0.125L, 2));
 
     // a checkpoint between goes on to the bit

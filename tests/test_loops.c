@@ -44,6 +44,81 @@ TEST(a_row_that_is_there_twice_changes_nothing)
             }
 }
 
+/* A pendulum's rod five times over, in other units */
+GVI_EACH(five_times, 2, rows(5))
+{
+    for (int a = 0; a < 5; ++a) {
+        const real unit = pow((real)10, (real)(2*a - 4)), *q = x->q;
+        x->g[a] = unit*(q[0]*q[0] + q[1]*q[1] - 1)/2;
+        x->jacobian[2*a] = unit*q[0];
+        x->jacobian[2*a + 1] = unit*q[1];
+    }
+}
+
+GVI_EACH(of_the_bob, 2, f) { x->f[1] -= 1; }
+
+TEST(there_may_be_more_rows_than_coordinates)
+{
+    static const gvi_formulation formulations[] = { GVI_AUTO, GVI_VELOCITIES, GVI_MOMENTA, GVI_NEWTON };
+    for (int run = 0; run < 16; ++run) {
+        const int s = 1 << run/4;
+        real last[4] = { 0 };
+        for (int rows = 1; rows <= 5; rows += 4) {
+            const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = of_the_bob },
+                                         { .kind = GVI_CONSTRAINT, .points = rows > 1 ? five_times : upper_rod, .rows = rows } };
+            const gvi_desc desc = { .n = 2, .degree = s, .rule.kind = s == 1 ? GVI_LOBATTO : GVI_GAUSS, .effects = scene,
+                                    .effect_count = 2, .formulation = s == 1 ? GVI_AUTO : formulations[run % 4] };
+            const size_t most = GVI_CONSTRAINED_LENGTH(2, s, s + (s == 1), rows)*sizeof(real);
+            gvi_stepper st;
+            real q[] = { 1, 0 }, v[] = { 0, (real)0.5L }, lambda[5];
+            assert_true(gvi_size(&desc) > 0 && gvi_size(&desc) <= most);
+            assert_ok(set_up(&st, &desc, q, v));
+            for (int k = 0; k < 50; ++k) assert_ok(gvi_step(&st, (real)0.04L));
+            for (int i = 0; i < 2 && rows > 1; ++i) {
+                assert_close(st.q[i], last[i], 64*EPS);
+                assert_close(st.p[i], last[2 + i], 64*EPS);
+            }
+            memcpy(last, st.q, 2*sizeof(real));
+            memcpy(last + 2, st.p, 2*sizeof(real));
+
+            assert_ok(gvi_multipliers(&st, lambda));     // all of it is the first row's: of all, 1e-4 of the unit
+            const real pull = -(st.p[0]*st.p[0] + st.p[1]*st.p[1]) + st.q[1];
+            assert_close(lambda[0], rows > 1 ? pull*10000 : pull, R(4096)*EPS*(rows > 1 ? 10000 : 1));
+            for (int a = 1; a < rows; ++a) assert_true(lambda[a] == 0);
+            q[0] += (real)0.125L;
+            assert_ok(gvi_project(&st, 0, q, v, NULL));
+            assert_close(hypot(q[0], q[1]), 1, 8*EPS);
+        }
+    }
+}
+
+/* z, and the slopes along x and y, of a table whose four feet stand on the ground */
+GVI_EACH(four_feet, 3, rows(4))
+{
+    static const int at[4][2] = { { 1, 1 }, { -1, 1 }, { -1, -1 }, { 1, -1 } };
+    for (int a = 0; a < 4; ++a) {
+        x->g[a] = x->q[0] + (real)at[a][0]*x->q[1] + (real)at[a][1]*x->q[2];
+        x->jacobian[3*a] = 1;
+        for (int i = 0; i < 2; ++i) x->jacobian[3*a + 1 + i] = (real)at[a][i];
+    }
+}
+GVI_EACH(of_the_table, 3, f) { x->f[0] -= 2; }
+
+TEST(a_table_stands_on_three_of_four_legs)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = of_the_table },
+                                        { .kind = GVI_CONSTRAINT, .points = four_feet, .rows = 4 } };
+    static const real carried[] = { 1, 0, 1, 0 };                 // no moment about x and y is left
+    const gvi_desc desc = { .n = 3, .degree = 4, .effects = scene, .effect_count = 2 };
+    gvi_stepper st;
+    real lambda[4];
+    assert_ok(set_up(&st, &desc, (real[]){ 0, 0, 0 }, (real[]){ 0, 0, 0 }));
+    for (int k = 0; k < 20; ++k) assert_ok(gvi_step(&st, (real)0.1L));
+    assert_ok(gvi_multipliers(&st, lambda));
+    for (int i = 0; i < 3; ++i) assert_close(st.q[i], 0, EPS);
+    for (int a = 0; a < 4; ++a) assert_close(lambda[a], carried[a], 64*EPS);
+}
+
 /* angle at time T from rest at angle `start`: theta'' = -cos theta, by Runge and Kutta in 4000 steps */
 static long double swing(long double start, long double T)
 {
@@ -126,9 +201,44 @@ TEST(rows_that_contradict_are_named)
             assert_int_equal(st.fault.coordinate, 1);
             assert_true(st.q[0] == 0 && st.t == 0);
         }
-    const gvi_effect e = { .kind = GVI_CONSTRAINT, .points = two_places, .rows = 2 };
-    const gvi_desc desc = { .n = 1, .degree = 2, .effects = &e, .effect_count = 1 };      // m > n
-    assert_int_equal(gvi_size(&desc), 0);
+    for (int rows = 0; rows <= 0x8000; rows += 0x4000) {
+        const gvi_effect e = { .kind = GVI_CONSTRAINT, .points = two_places, .rows = rows };
+        const gvi_desc desc = { .n = 1, .degree = 1, .effects = &e, .effect_count = 1 };
+        assert_int_equal(gvi_size(&desc) > 0, rows == 0x4000);
+    }
+}
+
+/* A parallelogram of unit rods whose ground points away by an angle, and which goes flat */
+static int rhombus(const gvi_points *x, void *user)
+{
+    const real angle = *(const real *)user;
+    rod(x, 0, 0, -1, 1, 0, 0);
+    rod(x, 1, 1, 0, 1, 0, 0);
+    rod(x, 2, 1, -1, 1, cos(angle), sin(angle));
+    return 0;
+}
+
+TEST(a_flat_position_has_one_reason)
+{
+    int stopped = 0;
+    for (int k = 0; k < 24; ++k) {
+        real angle = (real)k/3;
+        const real A = angle + 1, q[] = { cos(A), sin(A), cos(A) + cos(angle), sin(A) + sin(angle) },
+                   v[] = { sin(A), -cos(A), sin(A), -cos(A) };
+        const gvi_effect e = { .kind = GVI_CONSTRAINT, .points = rhombus, .rows = 3, .user = &angle };
+        const gvi_desc desc = { .n = 4, .degree = 2 << k % 3, .effects = &e, .effect_count = 1 };
+        gvi_stepper st;
+        int halved = 0;
+        assert_ok(set_up(&st, &desc, q, v));
+        for (int i = 0; i < 400 && st.status != GVI_E_SINGULAR; ++i) {
+            halved = gvi_step(&st, ldexp((real)0.07L, -halved)) != GVI_OK ? halved + 1 : 0;
+            assert_between(0, halved, 12);
+        }
+        const real turns = (st.t - 1)/acos((real)-1);            // flat at t = 1 + k pi; some are passed over
+        if (st.status == GVI_E_SINGULAR) assert_close(turns, round(turns), (real)0.0625L);
+        stopped += st.status == GVI_E_SINGULAR;
+    }
+    assert_true(stopped > 12);
 }
 
 /* x = 0 and x + c y = 0, at rest, where c is 1 but for the middle: there the rows differ by rounding only */

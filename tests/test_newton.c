@@ -565,6 +565,33 @@ TEST(what_grows_is_not_at_rest)
     }
 }
 
+/* A charge in a trap and a field, L = |v|^2/2 + w (x vy - y vx) - |q|^2/2, from rest at (1, 0), where dL/dv is w and not 0:
+   x + iy = (b e^(iat) - a e^(ibt))/(b - a), a, b = -w +- sqrt(w^2 + 1) */
+GVI_EACH(charge_in_field, 2, v, f, dldv)
+{
+    const real w = *(const real *)user;
+    x->f[0] += w*x->v[1] - x->q[0];
+    x->f[1] += -w*x->v[0] - x->q[1];
+    x->dldv[0] -= w*x->q[1];
+    x->dldv[1] += w*x->q[0];
+}
+
+TEST(a_term_linear_in_v_starts_from_rest)
+{
+    for (int k = 0; k < 8*12*10; ++k) {
+        const int s = 1 + k % 8;
+        const wide w = ldexpl(1, k/8 % 12 - 8), h = ldexpl(1, -1 - k/96), root = sqrtl(w*w + 1), a = root - w, b = -root - w;
+        real field = (real)w;
+        const gvi_effect e = { .kind = GVI_LAGRANGIAN, .points = charge_in_field, .user = &field };
+        const gvi_desc desc = { .n = 2, .degree = s, .effects = &e, .effect_count = 1 };
+        gvi_stepper st = new_motion(&desc, 0, (real[]){ 1, 0 }, (real[]){ 0, 0 });
+        assert_ok(gvi_step(&st, (real)h));
+        if (s < 8 || h*(root + w) > 1) continue;
+        assert_close(st.q[0], (b*cosl(a*h) - a*cosl(b*h))/(b - a), 32*EPS);
+        assert_close(st.q[1], (b*sinl(a*h) - a*sinl(b*h))/(b - a), 32*EPS);
+    }
+}
+
 /* Damped springs at a contraction of about 1/4: two bits an iteration, 27 and more of them a step, to Newton's 2 */
 GVI_EACH(damped_spring, 4, v, f)
 {

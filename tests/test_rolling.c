@@ -532,7 +532,7 @@ TEST(refusals)
     desc = knife_desc;
     desc.effects = without;
     assert_int_equal(gvi_init(&st, &desc, memory, sizeof memory), GVI_E_ARGUMENT);
-    without[1].rows = 4;
+    without[1].rows = 0x8000;
     assert_int_equal(gvi_init(&st, &desc, memory, sizeof memory), GVI_E_ARGUMENT);
 }
 

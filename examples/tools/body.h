@@ -366,7 +366,7 @@ static inline gvi_effect body_touches(const body_round *a)
                                                                          32   x of a at right angles to y of b
 
    in this order its rows.  No row reads velocities or t.  Rows that a closed loop makes redundant are left out by the
-   library, and the rows before them bear their share; a scene has no more rows than coordinates.      */
+   library, and the rows before them bear their share: a scene may have more rows than coordinates.    */
 enum { BODY_WORLD = -1 };
 enum { BODY_BALL = 7, BODY_UNIVERSAL = 15,     /* its pins are z, fixed in a, and x, fixed in b    */
        BODY_HINGE = 31, BODY_SLIDER = 59,      /* about z, along z                                 */
