@@ -4,6 +4,26 @@
         ensemble deps-ensemble embedded-page tolerances firmware deps-firmware fuzz fuzz-short fuzz-rolling fuzz-rolling-short fuzz-contact fuzz-contact-short size stats compare everywhere deps-everywhere \
         cost-dial cost-rebound cost-horizon cost-constraints cost-rolling cost-contact kicks points from-l mycost cost-embedded hard theorems mutants coverage covered
 
+## header       build/gvi.h without chapters: make header WITHOUT="NEWTON DIAL"; CORE=1: none of them (unifdef)
+.PHONY: header header-sizes deps-header
+header: | $(filter deps-header,$(MAKECMDGOALS))
+	@mkdir -p $(BUILD)
+	$(Q)sh tests/tools/header.sh $(BUILD)/gvi.h $(if $(CORE),CORE,$(WITHOUT))
+
+#: header-sizes lines and bytes of headers made to order: the table of docs/embedded.md
+ROBOT = RULES LAGRANGIAN CLOCK KICKS NEWTON CONSTRAINTS DIAL EXPLAIN TEXTS
+header-sizes: | $(filter deps-header,$(MAKECMDGOALS))
+	@mkdir -p $(BUILD)/header
+	$(Q)echo '| without | lines | bytes |'; echo '|---|---:|---:|'
+	$(Q)echo "| nothing: gvi.h as it is | $$(wc -l <gvi.h) | $$(wc -c <gvi.h) |"
+	$(Q)for chapters in CONSTRAINTS NEWTON 'NEWTON CONSTRAINTS' '$(ROBOT)' CORE; do \
+	    sh tests/tools/header.sh $(BUILD)/header/gvi.h $$chapters | \
+	    sed -n 's/^[^:]*: \(.*\) lines, \(.*\) bytes; without .*/| \1 | \2 |/p' | sed "s/^/| $$chapters /" || exit 1; done
+
+#: deps-header  installs what header needs: unifdef
+deps-header: | $(filter deps deps-check,$(MAKECMDGOALS))
+	$(Q)sh tests/tools/deps.sh --header
+
 # -- steps of `make test` and `make check`; each can be run alone
 
 #: headers      gvi.h through every compiler, standard, type and linkage there is, no warning
