@@ -539,12 +539,21 @@ typedef struct gvi_points {
     gvi_real       *jacobian;  /* [rows*n][stride] write dg_a/dq_i, row a*n + i: what is not 0 */
     gvi_real       *rate;      /* [rows][stride] write dg_a/dt where g reads t; it is 0 before;
                                   nonholonomic: A to jacobian, a to rate, g stays as it is */
+    const char    **why;       /* for gvi_fail; may be NULL                    */
 } gvi_points;
 
 /* All points at once.  Returns 0, or anything else if it cannot be evaluated
    here.  A step that is not explicit is then tried without its predictor, nearer to its
    start, and by Newton's method; if all fail, it ends with GVI_E_CALLBACK.    */
 typedef int gvi_points_fn(const gvi_points *x, void *user);
+
+/* A callback that knows why it cannot be evaluated says so by `return gvi_fail(x, "beyond the
+   road's end")`: gvi_why gives this sentence, which has to stay where it is.  Returns 1.     */
+static inline int gvi_fail(const gvi_points *x, const char *why)
+{
+    if (x->why) *x->why = why;
+    return 1;
+}
 
 /* A gvi_points_fn written for one point.  GVI_POINTS(name, n, ...) means `static int name`;
    n is a constant.  The list names the arrays that the body uses (t and q are always there): v, p,
@@ -648,7 +657,7 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
     GVI__INDEPENDENT for (; k < to; ++k) {
         gvi_points y = { n, 1, 1, x->t + k, a, a + n, a + 2*n, a + 3*n, a + 4*n,
                          single ? a + 5*n : NULL,
-                         GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5), g, G, dg };
+                         GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5), g, G, dg, x->why };
         GVI__MOVE(any, n, a[i], x->q[i*s + k]);
         GVI__MOVE(GVI__USES_v, n, a[n + i], x->v[i*s + k]);
         GVI__MOVE(GVI__USES_p, n, a[2*n + i], x->p[i*s + k]);
@@ -798,10 +807,11 @@ typedef struct gvi_desc {
     const gvi_effect *effects;
     int               effect_count;    /* to GVI_EFFECTS; 0 only where effects is NULL */
     gvi_formulation   formulation;     /* pinned: no fall-back and no memory for one */
-    gvi_real          tolerance;       /* 0 to eps/65536: iterate to rounding.  Else, below 1, the
+    gvi_real          tolerance;       /* to eps/65536: iterate to rounding.  Else, below 1, the
                                           iteration ends when the change yet to come, as the last
                                           two changes predict it, is below tolerance*|q|: faster,
-                                          but the energy may drift.  No effect where explicit */
+                                          but the energy may drift.  No effect where explicit.
+                                          0: eps/65536, with the dial resolution/65536 */
     int               max_iterations;  /* to 1,000,000.  0: 60                 */
     int               iterations;      /* N: exactly N iterations in every step, for a loop with
                                           a deadline; never Newton.  A step fails unless its last
@@ -825,8 +835,8 @@ typedef struct gvi_fault {             /* where the last failure came from      
     int coordinate;                    /* or GVI_FAULT_NONE                     */
     int point;                         /* quadrature point, or GVI_FAULT_NONE   */
     const char *argument;              /* GVI_E_ARGUMENT, GVI_E_CALLBACK of a GVI_POINTS that
-                                          lists too much, and where a call knows
-                                          more than its status: a sentence, else NULL */
+                                          lists too much or by gvi_fail, and where a call
+                                          knows more than its status: a sentence, else NULL */
 } gvi_fault;
 
 /* Work of steps and queries since gvi_init.  The caller may set any of it to 0. */
@@ -979,11 +989,13 @@ struct gvi__rolling {                 /* rows of GVI_NONHOLONOMIC, of m in all  
 #ifndef GVI_NO_DIAL
 struct gvi__dial {
     gvi_real *high;                   /* [r][6] sources to the highest modes                   */
-    int       top;                    /* the highest of them: K of gvi__resolution             */
-    gvi_real  reach, loss;            /* rungs: longest step allowed last, and by how much less */
+    gvi_real *now, *before;           /* [n] y_(K-1), and that of the step before              */
+    gvi_real  span;                   /* h of that step; 0: there is none                      */
+    int       top;                    /* the highest of the modes: K of gvi__resolution        */
+    gvi_real  reach;                  /* rung up to which the last measured step would do      */
     gvi_real  barrier;                /* rung of the last length that failed                   */
     int       wait, again;            /* steps below that; failures near it, one after another */
-    int       shorter, put_off;       /* lengths to try before Newton's method; is it put off? */
+    int       put_off;                /* shorter lengths come before Newton's method           */
 };
 #endif
 
@@ -1039,6 +1051,7 @@ struct gvi__private {
     int                 stepped;      /* 2: by a clock                                         */
     int                 kept;         /* valid steps in last and older, equally long           */
     int                 has_velocity; /* last.V holds                                          */
+    const char         *why;          /* of gvi_fail, until it is reported                     */
 #ifndef GVI_NO_RULES
     struct gvi__rules      rules;
 #endif
@@ -1311,7 +1324,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
     GVI__LENGTH(GVI__SIZE(n), GVI__SIZE(s), GVI__SIZE(r), GVI__SIZE(GVI__ROW(r)))
 #define GVI__LENGTH(n, s, r, R) (GVI__CORE_LENGTH(n, s, r, R) + GVI__RULES_LENGTH(s)            \
     + GVI__LAGRANGIAN_LENGTH(n, r, R) + GVI__MOMENTA_LENGTH(n, r, R) + GVI__CLOCK_LENGTH(n, R)  \
-    + GVI__KICKS_LENGTH(r) + GVI__NEWTON_LENGTH(n, s, R) + GVI__DIAL_LENGTH(R)                  \
+    + GVI__KICKS_LENGTH(r) + GVI__NEWTON_LENGTH(n, s, R) + GVI__DIAL_LENGTH(n, R)               \
     + ((r) > 4 ? GVI__SLACK : 0))
 
 #ifdef GVI_ONLY_EXPLICIT
@@ -1351,9 +1364,9 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__NEWTON_LENGTH(n, s, R) ((10*(s) + 5*(R) + (3 + 2*(s)*(s))*(n))*(n) + 2)
 #endif
 #ifdef GVI_NO_DIAL
-#define GVI__DIAL_LENGTH(R) 0
+#define GVI__DIAL_LENGTH(n, R) 0
 #else
-#define GVI__DIAL_LENGTH(R) (6*(R))
+#define GVI__DIAL_LENGTH(n, R) (2*(n) + 6*(R))
 #endif
 
 /* GVI_LENGTH with constraints, m rows in all.                                 */
@@ -1716,18 +1729,16 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__WRONG 512                     // of an entry of G, what it is off times this: wrong
 
 // the dial, in rungs, four an octave
-#define GVI__BAND 4                        // room at which h stays; and the most that it grows
-#define GVI__MARGIN ((gvi_real)0.5)        // of it, kept back
-#define GVI__DOUBT ((gvi_real)0.5)         // rungs below 0: by a loss that is the first
-#define GVI__SHY 2                         // rungs of room kept back by a step that grows
+#define GVI__BAND 2                        // room at which h stays, and that growth leaves
+#define GVI__GROWS 4                       // the most that it grows
+#define GVI__MARGIN 1                      // of room, kept back
 #define GVI__MANY (4 + GVI__DIG/4)         // iterations from which on a longer step does not pay
 #define GVI__WAIT 4                        // steps until a length that failed is tried again
-#define GVI__SHORTER 3                     // lengths tried before Newton's method, 3 rungs apart
+#define GVI__SHORTER 16                    // below what the resolution allows: Newton's method
 #define GVI__STEADY ((gvi_real)0.64)       // of a fall of modes, squared, that one pair alone shows
-#define GVI__CANCELS 16                    // s^2 eps: rounding of forces that cancel
 #define GVI__FALL 8                        // the most that it shrinks, and after a failure
 #define GVI__RESTS 4096                    // times slower than the fastest: judged with it
-#define GVI__PULLED 256                    // roundings of g, or of forces of constraint
+#define GVI__PULLED 256                    // roundings of g, of forces that cancel or constrain
 #define GVI__DEEP (GVI__DIG/2)             // degree whose modes reach rounding
 
 /* ---------------------------------------------------------------- BLOCKS */
@@ -2359,6 +2370,8 @@ static gvi_status gvi__refuse_call(gvi_stepper *st, const char *argument)
 GVI__COLD gvi_status gvi__report_callback(gvi_stepper *st, int failed, int effect)
 {
     gvi__report_effect(st, GVI_E_CALLBACK, effect);
+    st->fault.argument = st->in.why;
+    st->in.why = NULL;
     if (failed == GVI__MISSING)
         st->fault.argument = "GVI_POINTS lists what this kind does not have, as v: is .kind set?";
     if (failed == GVI__OTHER_N)
@@ -2393,16 +2406,16 @@ static unsigned gvi__of_kind(const struct gvi__private *in, gvi_kind kind)
 }
 
 // `count` points at q, to which f and dldv are added; v, value and the like are set by the caller
-static gvi_points gvi__points_at(const gvi_stepper *st, int count, int R, const gvi_real *t,
+static gvi_points gvi__points_at(gvi_stepper *st, int count, int R, const gvi_real *t,
                                  const gvi_real *q, gvi_real *f, gvi_real *dldv)
 {
-    const gvi_points at = { st->n, count, R,    t,    q,    NULL, NULL, f,
-                           dldv,  NULL,  NULL, NULL, NULL, NULL, NULL };
+    const gvi_points at = { st->n, count, R,    t,    q,    NULL, NULL,        f,
+                           dldv,  NULL,  NULL, NULL, NULL, NULL, NULL, &st->in.why };
     return at;
 }
 
 // one point, f and dldv in scratch
-static gvi_points gvi__one_point(const gvi_stepper *st, const gvi_real *t, const gvi_real *q)
+static gvi_points gvi__one_point(gvi_stepper *st, const gvi_real *t, const gvi_real *q)
 {
     gvi_real *f = st->in.point + 4*st->n;
     return gvi__points_at(st, 1, 1, t, q, f, f + st->n);
@@ -8463,38 +8476,88 @@ static gvi_real gvi__power(gvi_real x, int k)
     return y;
 }
 
-/* What a coordinate lacks of its velocity, of which y are the modes K, K - 1 .., `ends` at both
+/* Are the highest modes of coordinate i nothing but rounding?  Of the terms of its row: P and A,
+   where V is M^-1 (P - A).  Or of t and q at its points, which is as large in all modes.  all: the
+   size of the velocity, or in positions of p.                                                 */
+static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real low, gvi_real all)
+{
+    const struct gvi__private *in = &st->in;
+    const int forces = in->stages == 1;
+    const gvi_real *row = (forces ? in->work.F : in->work.V) + i*in->R;
+    const gvi_real h = GVI_ABS(in->sized.h), inertia = gvi__place_inertia(st, i),
+                   p = GVI_ABS(in->state.p[i]), dp = GVI_ABS(in->step.p[i]),
+                   first = row[0], last = row[st->r - 1];
+    gvi_real terms = GVI_ABS(first) + GVI_ABS(last), change = GVI_ABS(last - first),
+             apart = GVI_ABS(in->state.q[i])/all;
+    if (forces) {
+        terms *= h;
+        change *= h;
+        apart *= inertia;
+    } else {
+        terms += (2*p + dp)/inertia;
+        change += dp/inertia;
+    }
+
+    apart = (GVI_ABS(st->t) + apart)/h;
+    return high <= 4*GVI__EPS*terms || (low <= 4*high && high <= 4*GVI__EPS*change*apart);
+}
+
+/* Mode K of coordinate i by the change of mode K - 1 since the step before; *was: its size there,
+   in steps of this length.                                                                    */
+static gvi_real gvi__mode_since(const gvi_stepper *st, int i, gvi_real *was)
+{
+    const struct gvi__dial *dial = &st->in.dial;
+    const gvi_real h = st->in.sized.h;
+    if (!gvi__nonzero(dial->span)) return 0;
+
+    const gvi_real before = dial->before[i]*gvi__power(h/dial->span, dial->top - 1),
+                   change = (dial->now[i] - before)*(2*h/(h + dial->span));
+    *was = GVI_ABS(before);
+    return GVI_ABS(change)/(gvi_real)(4*dial->top - 2);
+}
+
+// rho^2 of gvi__resolution by the modes of one step
+static gvi_real gvi__mode_fall(int top, const gvi_real *y)
+{
+    const gvi_real high = y[0] + y[1], low = y[2] + y[3], lower = y[4] + y[5],
+                   fall = low > high ? high/low : 1, inside = y[0] < y[1] ? y[0]/y[1] : 1,
+                   flat = GVI_SQRT(inside*fall*GVI_SQRT(fall));
+    if (top < 6) return gvi__larger(flat, fall);
+    if (lower <= high) return 1;
+
+    const gvi_real before = lower > low ? low/lower : 1,
+                   one = gvi__larger(GVI__STEADY*gvi__larger(before, fall), flat);
+    return gvi__larger(GVI_SQRT(high/lower), one);
+}
+
+/* What coordinate i lacks of its velocity, of which y are the modes K, K - 1 .., `ends` at both
    ends and `turn` from end to end.  all: its size.                                            */
-static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real ends, gvi_real turn,
-                            gvi_real *all)
+static gvi_real gvi__missed(const gvi_stepper *st, int i, const gvi_real *y, gvi_real ends,
+                            gvi_real turn, gvi_real *all)
 {
     const int top = st->in.dial.top, e = 2*st->s - top,
               stiff = st->formulation == GVI_NEWTON && st->in.chosen != GVI_NEWTON
                       && !gvi__constrained(st);
-    gvi_real high = y[0] + y[1], low = y[2] + y[3], fall = 1;                    // fall: rho^2
+    gvi_real high = y[0] + y[1], low = y[2] + y[3], since = 0, was = 0;
 
     *all = ends + high + low;
+    if (top < 5) since = gvi__mode_since(st, i, &was);
     if (top < 4) {
-        const gvi_real one = y[1];                               // alone, a mode may pass 0
-        low = top == 3 ? one + y[2] : turn;
-        high = y[0];
-        if (one > 0) high += one*(one/(top == 3 ? low : *all))/4;
+        high = y[0] + since;                                     // alone, a mode may pass 0
+        low = top == 3 ? y[1] + y[2] : turn;
     }
-    // rounding, a force as simple as the curve: next to nothing, whatever h
-    if (high <= 4*GVI__EPS*(st->in.stages == 1 ? turn + low : *all))
-        return high*GVI__EPS*GVI__EPS;
+    // next to nothing: a force as simple as the curve, and no shorter step shows more of it
+    if (!(high > 0) || gvi__modes_end(st, i, high, low, *all)) return high*GVI__EPS*GVI__EPS;
     if (stiff) return high;
 
-    if (low > high) fall = high/low;
+    gvi_real fall = low > high ? high/low : 1;                   // rho^2
     if (top == 2) fall *= GVI_SQRT(fall);                        // from y_1, or nearly
-    const gvi_real inside = y[0] < y[1] ? y[0]/y[1] : 1,
-                   flat = GVI_SQRT(inside*fall*GVI_SQRT(fall));
-    if (top >= 6) {
-        const gvi_real lower = y[4] + y[5], before = lower > low ? low/lower : 1;
-        fall = GVI__STEADY*gvi__larger(before, fall);
-        fall = lower > high ? gvi__larger(GVI_SQRT(high/lower), fall) : 1;
+    if (top >= 5) fall = gvi__mode_fall(top, y);
+    else {
+        const gvi_real half = (y[0] + since)/(2*(y[1] + was));
+        fall = gvi__smaller(gvi__larger(half*half, fall), 1);
     }
-    fall = gvi__larger(flat, fall);
+
     gvi_real lacks = gvi__power(fall, e/2)*10;
     if (e & 1) lacks *= GVI_SQRT(fall);
     return high*gvi__smaller(lacks, 1);
@@ -8512,21 +8575,22 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
    bend inside a step leave a tail that is flat there.  The step lacks about y_2s, which its points
    take for modes that they see: high rho^e; ten times that, since a short tail may be flatter than
    it looks.  Stiff forces, for which Newton's method had to take over, turn all of y_s into an
-   error: high.  (With constraints it takes over for other reasons.)  Below K = 4 single modes
-   count, below 6 two pairs.  In positions the modes are those of M v, from the forces.  Where
-   motion is far below max |v| + max |q|/h, each times sqrt(M_ii), and below max |v| + |q_i|/h, so
-   that neither a light body nor one near the origin counts as at rest, an error of some s^2 eps of
-   the smaller of these is rounding, and relative to it.  Under constraints rounding of g over h is
-   in every velocity, and is all there is of one that starts from rest: no error of h.         */
+   error: high.  (With constraints it takes over for other reasons.)  Below K = 6 two pairs count;
+   below 5 low is a constant force as well, which falls nowhere, and below 4 single modes count.
+   There y_(K-1) of the step before, y', says more: |y_(K-1) - y'|/(4 K - 2) is a mode K, too, and
+   rho at least half of both over |y_(K-1)| + |y'|.  In positions the modes are those of M v, from
+   the forces.  Where motion is far below max |v| + max |q|/h, each times sqrt(M_ii), and below max
+   |v| + |q_i|/h, so that neither a light body nor one near the origin counts as at rest, some eps
+   of the smaller of these are rounding of forces that cancel.  Under constraints rounding of g over
+   h is in every velocity, and is all there is of one that starts from rest: no error of h.     */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
-    const int s = st->s, R = in->R, top = in->dial.top, forces = in->stages == 1,
+    const int R = in->R, top = in->dial.top, forces = in->stages == 1,
               constrained = gvi__constrained(st),
               pulled = forces & constrained ? top < 6 ? top : 6 : 0;
     const gvi_real *row = forces ? in->work.F : in->work.V;
-    const gvi_real h = GVI_ABS(in->sized.h), unit = forces ? h : 1,
-                   rounding = (gvi_real)(s*s)*GVI__EPS;
+    const gvi_real h = GVI_ABS(in->sized.h), unit = forces ? h : 1;
     gvi_real *missed = in->answer, *size = missed + st->n, *mass = size + st->n;
     gvi_real fastest = 0, farthest = 0, v = 0, worst = 0;
     for (int i = 0; i < st->n; ++i, row += R) {
@@ -8536,6 +8600,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
             GVI__UNROLL for (int m = 0; m < 6; ++m) y[m] += a[m]*row[j];
         for (int m = 0; m < pulled; ++m)
             y[m] += in->table.inv_gamma[top - m]*gvi__constraint_mode(st, i, top - m);
+        in->dial.now[i] = unit*y[1];
         GVI__UNROLL for (int m = 0; m < 6; ++m) y[m] = unit*GVI_ABS(y[m]);
         if (forces) {
             start = in->state.p[i];
@@ -8543,8 +8608,8 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
         }
         mass[i] = GVI_SQRT(gvi__place_inertia(st, i));
         const gvi_real scale = forces ? 1/mass[i] : mass[i];
-        missed[i] = scale*gvi__missed(st, y, GVI_ABS(start) + GVI_ABS(end), GVI_ABS(end - start),
-                                      size + i);
+        missed[i] = scale*gvi__missed(st, i, y, GVI_ABS(start) + GVI_ABS(end),
+                                      GVI_ABS(end - start), size + i);
         size[i] *= scale;                         // p over M
         fastest = gvi__larger(size[i], fastest);
         farthest = gvi__larger(GVI_ABS(in->state.q[i])*mass[i], farthest);
@@ -8558,11 +8623,11 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
                        around = gvi__smaller(own, whole);
         const int rests = size[i] < around/GVI__RESTS;
 
-        // what rounding of g, or of forces of constraint, makes of it: less the longer a step is
-        gvi_real noise = shift ? mass[i]*shift[i]/h : 0;
-        if (shift && (forces || rests)) noise = gvi__larger(GVI__EPS*whole, noise);
-        if (missed[i] <= GVI__PULLED*noise) continue;
-        if (rests && missed[i] <= GVI__CANCELS*rounding*around) size[i] = around;
+        // what rounding makes of it: of g, of forces that cancel, of those of constraint anywhere
+        gvi_real rounding = shift ? mass[i]*shift[i]/h : 0;
+        if (rests || (shift && forces))
+            rounding = gvi__larger(GVI__EPS*(shift ? whole : around), rounding);
+        if (missed[i] <= GVI__PULLED*rounding) missed[i] *= GVI__EPS*GVI__EPS;
         worst = gvi__larger(missed[i]/size[i], worst);
     }
     return worst;
@@ -8574,6 +8639,8 @@ static gvi_status gvi__dial_accept(gvi_stepper *st)
     if (st->resolution > st->in.desc.resolution)
         return gvi__report_status(st, GVI_E_RESOLUTION);
     st->counters.worst_resolution = gvi__larger(st->resolution, st->counters.worst_resolution);
+    gvi__copy((size_t)st->n, st->in.dial.now, st->in.dial.before);
+    st->in.dial.span = st->in.sized.h;
     return GVI_OK;
 }
 
@@ -8595,10 +8662,10 @@ static gvi_real gvi__length(gvi_real k)
 }
 
 /* How many rungs up, after a step that succeeded.  `room`: up to where the resolution, of order
-   2s - 1 in h, reaches its limit, less a margin.  What was lost of it since the last step will be
-   lost again; a first loss may be chance, and shrinks h by little.  From 0 to 4 rungs h stays as
-   it is, and above where the step before left less.  Work over time is iterations/h: from
-   GVI__MANY of them on h does not grow, from 5/3 of that on it shrinks a little.              */
+   2s - 1 in h, reaches its limit, less a margin.  What was lost of it since the step before will be
+   lost again; two octaves are too many to be a measure.  From 0 to GVI__BAND rungs h stays as it
+   is.  Work over time is iterations/h: from GVI__MANY of them on h does not grow, from 5/3 of that
+   on it shrinks a little.                                                                     */
 static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 {
     struct gvi__dial *dial = &st->in.dial;
@@ -8606,22 +8673,17 @@ static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
     const int many = st->in.stages == 2 ? GVI__MANY*3/2 : GVI__MANY,
               newton = st->formulation == GVI_NEWTON;
     gvi_real left = room, up = 0;
-    int lasts = 1;
 
-    if (room < 2*GVI__BAND) {
-        const gvi_real loss = dial->reach - (at + room);
-        lasts = dial->reach - at > GVI__BAND;
-        if (loss > 0) left -= loss;
-        if (room > 0 && dial->loss <= 0) left = gvi__larger(left, -GVI__DOUBT);
-        dial->loss = loss;
+    if (room < 2*GVI__GROWS) {
+        left -= gvi__larger(dial->reach - (at + room), 0);
         dial->reach = at + room;
     }
-    if (lasts && left > GVI__BAND) up = gvi__smaller(left - GVI__SHY, GVI__BAND);
-    if (left < 0) up = gvi__larger(left - 1, -GVI__FALL);
 
-    dial->shorter = newton ? 0 : GVI__SHORTER;
+    if (left > GVI__BAND) up = gvi__smaller(left - GVI__BAND, GVI__GROWS);
+    if (left < 0) up = gvi__larger(left - 1, -GVI__FALL);
     if (!newton && st->iterations >= many) up = gvi__smaller(up, 0);
     if (!newton && st->iterations >= many*5/3) up = gvi__smaller(up, -1);
+
     dial->wait -= dial->wait > 0;
     if (dial->wait > 0 && up > 0)
         up = gvi__larger(gvi__smaller(up, dial->barrier - 1 - at), 0);
@@ -8638,15 +8700,16 @@ static gvi_real gvi__rungs_down(gvi_stepper *st, gvi_status status, gvi_real at,
     dial->wait = GVI__WAIT << dial->again;
     dial->barrier = at;
     if (status == GVI_E_RESOLUTION) return gvi__larger(gvi__smaller(room, 0) - 1, -GVI__FALL);
-    if (dial->shorter == 0) return -GVI__FALL;
 
-    dial->shorter -= 1;
-    return -3;
+    dial->reach = gvi__larger(dial->reach, at);   // the resolution may have allowed it
+    return dial->put_off ? -3 : -GVI__FALL;
 }
 
-// st.next after a step of length h
+// st.next after a step of length h; one that an end has shortened says nothing of longer ones
 static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
 {
+    if (status == GVI_OK && h < st->next) return;
+
     const gvi_real seen = gvi__larger(st->resolution, GVI__MIN), at = gvi__rungs(h);
     const gvi_real most = gvi__rungs(st->in.desc.resolution) - gvi__rungs(seen);
     // the modes end at rounding: above GVI__DEEP the resolution falls no faster than there
@@ -8654,26 +8717,34 @@ static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
     const gvi_real room = most/(gvi_real)(2*degree - 1) - GVI__MARGIN,
                    up = status == GVI_OK ? gvi__rungs_up(st, at, room)
                                          : gvi__rungs_down(st, status, at, room);
-    const gvi_real next = gvi__length(at + up);
-    if (up < 0 || (up > 0 && h >= st->next)) st->next = next;
+    if (gvi__nonzero(up)) st->next = gvi__length(at + up);
 }
 
 /* A first length: 1/16 of the time in which the forces would make the kinetic energy that there is;
-   1/1024 of the way where that is less, or from rest.                                         */
+   1/1024 of the way where that is less, or from rest.  Both by what is the same in every gauge:
+   v.M v, and how fast v changes with p as the forces drive that.                              */
 GVI__COLD gvi_real gvi__first_length(gvi_stepper *st, gvi_real left)
 {
-    gvi_real *v = st->in.answer, *a = v + st->n;
+    const int n = st->n, inertia = st->in.desc.mass.kind != GVI_MASS_NONE;
+    gvi_real *v = st->in.answer, *later = v + n, *p = later + n;
+    const gvi_real longest = left/1024;
     gvi_points at = gvi__one_point(st, &st->t, st->q);
+
     gvi__velocity_guess(st, v);
     gvi_status status = gvi__velocity(st, st->t, st->q, st->p, v);
     at.v = v;
+    if (status == GVI_OK) status = gvi__evaluate(st, &at, ~0u, 1);               // M v
+    const gvi_real moving = GVI_ABS(gvi__dot(n, inertia ? at.dldv : st->p, v));
+
     if (status == GVI_OK) status = gvi__evaluate(st, &at, 0, 1);
-    gvi__copy((size_t)st->n, at.f, a + st->n);
-    gvi__copy((size_t)st->n, v, a);
-    if (status == GVI_OK) status = gvi__velocity(st, st->t, st->q, a + st->n, a);
-    const gvi_real moving = GVI_ABS(gvi__dot(st->n, st->p, v)),
-                   pushing = GVI_ABS(gvi__dot(st->n, a + st->n, a)),
-                   time = GVI_SQRT(moving/pushing)/16, longest = left/1024;
+    for (int i = 0; i < n; ++i) {
+        later[i] = v[i];
+        p[i] = st->p[i] + longest*at.f[i];
+    }
+    if (status == GVI_OK) status = gvi__velocity(st, st->t, st->q, p, later);
+    for (int i = 0; i < n; ++i) later[i] = (later[i] - v[i])/longest;
+    const gvi_real pushing = GVI_ABS(gvi__dot(n, at.f, later)),
+                   time = GVI_SQRT(moving/pushing)/16;
     return status == GVI_OK && time > 0 && time < longest ? time : longest;
 }
 
@@ -8693,10 +8764,10 @@ GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
         gvi_real h = st->next;
         if (!clock && left < h*2) h = left/2;
         if (!clock && left < st->next*(gvi_real)1.0625) h = left;
-        st->in.dial.put_off = st->in.dial.shorter > 0;
+        st->in.dial.put_off = st->in.dial.reach - gvi__rungs(h) < GVI__SHORTER;
         const gvi_status status = gvi_step(st, way > 0 ? h : -h);
-        st->in.dial.put_off = 0;
         gvi__set_next(st, status, h);
+        st->in.dial.put_off = 0;
         if (status == GVI_OK) {
             if (!clock && h >= left) {
                 st->t_low += st->t - t_end;
@@ -9630,6 +9701,7 @@ GVI__COLD gvi_status gvi__place_chosen(struct gvi__private *in, int order, gvi_f
 #else
         wrong = gvi__wrong_in_resolution(d, order);
         in->desc.resolution = gvi__larger(d->resolution, GVI__EPS);
+        if (!(d->tolerance > 0)) in->desc.tolerance = in->desc.resolution*(GVI__ENOUGH/GVI__EPS);
 #endif
     }
 
@@ -9659,8 +9731,10 @@ GVI__COLD void gvi__place_layout(struct gvi__private *in, gvi__arena *a)
     if (in->rolling.bits) gvi__rolling_layout(in, a);
 #endif
 #ifndef GVI_NO_DIAL
-    const size_t R = (size_t)GVI__ROW(in->desc.rule.points);
+    const size_t R = (size_t)GVI__ROW(in->desc.rule.points), n = (size_t)in->desc.n;
     in->dial.high = gvi__take(a, in->desc.resolution > 0 ? 6 : 0, R);
+    in->dial.now = gvi__take(a, in->desc.resolution > 0, n);
+    in->dial.before = gvi__take(a, in->desc.resolution > 0, n);
 #endif
 #ifndef GVI_NO_NEWTON
     if (in->newton.covers) gvi__newton_layout(in, gvi__held_rows(in), a);        // J comes last
@@ -9708,9 +9782,8 @@ GVI__COLD void gvi__place_started(gvi_stepper *st)
 #endif
 #ifndef GVI_NO_DIAL
     st->in.dial.reach = st->in.dial.barrier = -GVI__MAX;
-    st->in.dial.loss = 0;
+    st->in.dial.span = 0;
     st->in.dial.wait = st->in.dial.again = 0;
-    st->in.dial.shorter = GVI__SHORTER;
 #endif
 }
 

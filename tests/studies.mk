@@ -2,7 +2,7 @@
 
 .PHONY: headers-quick headers symbols chapters docs-check reference bound float instructions prices usable languages boards sanitize sanitized any_processor \
         ensemble deps-ensemble embedded-page tolerances firmware deps-firmware fuzz fuzz-short fuzz-rolling fuzz-rolling-short fuzz-contact fuzz-contact-short size stats compare everywhere deps-everywhere \
-        cost-dial cost-rebound cost-horizon cost-constraints cost-rolling cost-contact kicks points from-l mycost cost-embedded hard theorems mutants coverage covered
+        cost-dial cost-rebound cost-horizon cost-constraints cost-rolling cost-contact kicks points from-l typed mycost cost-embedded hard theorems mutants coverage covered
 
 ## header       build/gvi.h without chapters: make header WITHOUT="NEWTON DIAL"; CORE=1: none of them (unifdef)
 .PHONY: header header-sizes deps-header
@@ -220,6 +220,12 @@ from-l: tests/cost/from_l.c $(BUILD)/gvi-double.o
 	$(Q)echo C && $(BUILD)/cost/from_l
 	$(Q)$(CXX) -std=c++11 $(FLAGS) -O2 -Iexamples -DGVI_IMPLEMENTED -xc++ $< -xnone $(BUILD)/gvi-double.o -o $(BUILD)/cost/from_l $(LDLIBS)
 	$(Q)echo C++ && $(BUILD)/cost/from_l
+
+#: typed        10,000 random Lagrangians for lagrangian.h, 1,000 with the wrong kind, 1,000 with a derivative lost (a minute)
+typed: tests/fuzz/typed.c $(BUILD)/gvi-double.o
+	@mkdir -p $(BUILD)/fuzz
+	$(Q)$(CC) -std=c99 $(FLAGS) $(TESTFLAGS) -O2 -DGVI_IMPLEMENTED $^ -o $(BUILD)/fuzz/typed $(LDLIBS)
+	$(Q)$(BUILD)/fuzz/typed $(TYPED_FACTOR)
 
 #: cost-constraints rods and a top with constraints, against RATTLE's compositions and DOP853; chains to 500 rods, 216 molecules (two minutes)
 #: cost-rolling a rolling disc: gvi.h, DOP853 and the midpoint rule on reduced equations (half a minute)

@@ -91,7 +91,7 @@ static const struct system {
     { &pendulum, pendulum_by_hand, LAGRANGIAN_MASS, GVI_MOMENTA, 0, { R(0.8), R(0.4) }, { 0, 0 }, R(0.05) },
     { &growing, growing_by_hand, LAGRANGIAN_MASS, GVI_MOMENTA, 1, { R(0.8), R(0.4) }, { 0, R(0.3) }, R(0.1) },
     { &fast, fast_by_hand, LAGRANGIAN_GENERAL, GVI_NEWTON, 0, { R(0.8), 0 }, { R(0.1), 1 }, R(0.1) },
-    { &moved, moved_by_hand, LAGRANGIAN_GENERAL, GVI_NEWTON, 1, { R(1.1), R(0.5) }, { 0, R(0.1) }, R(0.05) },
+    { &moved, moved_by_hand, LAGRANGIAN_MASS_LINEAR, GVI_MOMENTA, 1, { R(1.1), R(0.5) }, { 0, R(0.1) }, R(0.05) },
 };
 
 /* The state at t = 1: the classical Runge-Kutta method, 8,000 steps */
@@ -161,7 +161,9 @@ TEST(kinds_are_found_far_from_the_start)
         { &dense, LAGRANGIAN_POTENTIAL, { R(0.1), R(0.2) }, { 0, 1 } },
     };
     for (int k = 0; k < COUNT(cases); ++k) {
-        assert_null(lagrangian_init(lagrangians, *cases[k].L, NULL, 0, cases[k].q, cases[k].v));
+        const char *wrong = lagrangian_init(lagrangians, *cases[k].L, NULL, 0, cases[k].q, cases[k].v);
+        if (wrong) print_error("%d: %s\n", k, wrong);
+        assert_null(wrong);
         assert_int_equal(lagrangians[0].kind, cases[k].kind);
     }
     assert_int_equal(lagrangian_mass(lagrangians).kind, GVI_MASS_DENSE);
@@ -174,9 +176,9 @@ TEST(kinds_are_found_far_from_the_start)
     assert_null(lagrangian_init(lagrangians, coupled, NULL, 0, far, both));
     assert_int_equal(lagrangians[0].kind, LAGRANGIAN_POTENTIAL);
     assert_close(lagrangians[0].M[2], R(1e14), R(1e14)*EPS);
-    /* what cannot be known is for the user to say */
+    /* also from a start that is small */
     assert_null(lagrangian_init(lagrangians, far_mass, NULL, 0, small, rest));
-    assert_int_equal(lagrangians[0].kind, LAGRANGIAN_POTENTIAL);
+    assert_int_equal(lagrangians[0].kind, LAGRANGIAN_MASS);
     lagrangians[0].kind = LAGRANGIAN_GENERAL;
     assert_int_equal(lagrangian_mass(lagrangians).kind, GVI_MASS_NONE);
 }
@@ -298,28 +300,28 @@ TEST(agrees_with_derivatives_by_hand)
 
 LAGRANGIAN(trap_potential, 2)
 {
-    const real r2 = creal(q[0]*q[0] + q[1]*q[1]);
+    const real r2 = (real)creal(q[0]*q[0] + q[1]*q[1]);
     return (v[0]*v[0] + v[1]*v[1])/2 + 1/sqrt(r2);
 }
 LAGRANGIAN(trap_linear, 2)
 {
-    const real x = creal(q[0]);
+    const real x = (real)creal(q[0]);
     return (v[0]*v[0] + v[1]*v[1])/2 - q[1]/2*v[0] + (x/2 + x*x*x/12)*v[1] - (q[0]*q[0] + 4*q[1]*q[1])/2;
 }
 LAGRANGIAN(trap_mass, 2)
 {
-    const real c = cos(creal(q[0] - q[1]));
+    const real c = (real)cos(creal(q[0] - q[1]));
     return v[0]*v[0] + v[1]*v[1]/2 + v[0]*v[1]*c + 2*g*cos(q[0]) + g*cos(q[1]);
 }
 LAGRANGIAN(trap_general, 2)
 {
-    const real v2 = creal(v[0]*v[0] + v[1]*v[1]);
+    const real v2 = (real)creal(v[0]*v[0] + v[1]*v[1]);
     return -25*sqrt(1 - v2/25) + 1/sqrt(q[0]*q[0] + q[1]*q[1]);
 }
 /* at rest, at a place where the derivative that is lost is 0 */
 LAGRANGIAN(trap_at_rest, 1)
 {
-    const real c = cos(creal(q[0]));
+    const real c = (real)cos(creal(q[0]));
     return v[0]*v[0]/2 + c;
 }
 
@@ -351,6 +353,7 @@ TEST(lost_derivatives_are_refused)
 }
 
 LAGRANGIAN(first_order, 2) { return q[0]*v[1] - q[0]*q[0] - q[1]*q[1]; }
+LAGRANGIAN(first_order_alone, 2) { return q[0]*v[1] - q[1]*v[0]; }
 LAGRANGIAN(massless, 2) { return v[0]*v[0]/2 + v[1] - q[0]*q[0] - q[1]*q[1]; }
 LAGRANGIAN(one_direction, 2) { return (v[0] + v[1])*(v[0] + v[1])/2 - q[0]*q[0] - q[1]*q[1]; }
 LAGRANGIAN(not_there, 2) { return (v[0]*v[0] + v[1]*v[1])/2 + log(q[0] - 5); }
@@ -361,6 +364,7 @@ LAGRANGIAN(large, LAGRANGIAN_MOST + 1) { return v[0]*v[0]; }
 TEST(refusals_say_why)
 {
     assert_refused(&first_order, some_q, some_v, "L is linear in v: its equations are of first order; give H(t,q,p) by HAMILTONIAN");
+    assert_refused(&first_order_alone, (real[]){ 1, 1 }, zeros, "L is linear in v: its equations are of first order");
     assert_refused(&massless, some_q, some_v, "L has no kinetic energy in q[1]");
     assert_refused(&one_direction, some_q, some_v, "L has no kinetic energy in some direction");
     assert_refused(&not_there, some_q, some_v, "L is not finite at the start");
@@ -406,6 +410,30 @@ LAGRANGIAN(functions, 8)
 {
     return sqrt(q[0]) + 2*exp(q[1]) + 3*log(q[2]) + 4*sin(q[3]) + 5*cos(q[4]) + 6*tan(q[5]) + 7*fabs(q[6] - 1) + 8*tanh(q[7])
            + pow(v[0], 3) + pow(v[1], R(-1.5)) + pow(2, v[2]) + pow(v[3], v[4]);
+}
+
+LAGRANGIAN(more_functions, 6)
+{
+    return cbrt(q[0]) + 2*asin(q[1]) + 3*acos(q[2]) + 4*atan(q[3]) + 5*atan2(q[4], q[5]) + sinh(v[0]) + 2*cosh(v[1])
+           + 3*asinh(v[2]) + 4*acosh(v[3] + 1) + 5*atanh(v[4]) + 6*hypot(v[4], v[5]);
+}
+
+TEST(more_functions_have_their_derivatives)
+{
+    real q[6], v[6], by_q[6], by_v[6];
+    for (int i = 0; i < 6; ++i) q[i] = v[i] = R(0.5) + (real)i/64;
+    const real value = lagrangian_at(&more_functions, NULL, 0, q, v, by_q, by_v);
+    const long double x[6] = { q[0], q[1], q[2], q[3], q[4], q[5] }, d2 = x[4]*x[4] + x[5]*x[5], r = sqrtl(d2);
+    const long double right[6] = { powl(x[0], -2/3.0L)/3, 2/sqrtl(1 - x[1]*x[1]), -3/sqrtl(1 - x[2]*x[2]), 4/(1 + x[3]*x[3]),
+                                   5*x[5]/d2, -5*x[4]/d2 };
+    const long double right_v[6] = { coshl(x[0]), 2*sinhl(x[1]), 3/sqrtl(1 + x[2]*x[2]), 4/sqrtl((x[3] + 1)*(x[3] + 1) - 1),
+                                     5/(1 - x[4]*x[4]) + 6*x[4]/r, 6*x[5]/r };
+    for (int i = 0; i < 6; ++i) {
+        assert_close(by_q[i], right[i], 32*EPS);
+        assert_close(by_v[i], right_v[i], 32*EPS);
+    }
+    assert_close(value, cbrtl(x[0]) + 2*asinl(x[1]) + 3*acosl(x[2]) + 4*atanl(x[3]) + 5*atan2l(x[4], x[5]) + sinhl(x[0])
+                 + 2*coshl(x[1]) + 3*asinhl(x[2]) + 4*acoshl(x[3] + 1) + 5*atanhl(x[4]) + 6*r, 128*EPS);
 }
 
 TEST(functions_have_their_derivatives)
@@ -528,6 +556,199 @@ TEST(check_finds_nothing)
     }
 }
 
+/* -- the watch: L of another kind than it was found to be, or said to be */
+
+LAGRANGIAN(bump, 1)
+{
+    const number u = q[0] - 50, y = exp(-u*u)/20, slope = -2*u*y;
+    return v[0]*v[0]*(1 + slope*slope)/2 - g*y;
+}
+LAGRANGIAN(field_far_off, 2) { return (v[0]*v[0] + v[1]*v[1])/2 + exp(-(q[0] - 50)*(q[0] - 50)/4)*q[0]*v[1]; }
+LAGRANGIAN(wall_far_off, 2)
+{
+    const real over = (real)creal(q[0]) - 50;
+    return (v[0]*v[0] + v[1]*v[1])/2 - (over > 0 ? 500*over*over : 0);
+}
+LAGRANGIAN(switched, 1) { return *(const real *)user*v[0]*v[0]/2 - q[0]*q[0]/2; }
+
+/* Six seconds at 25 m/s; NULL, or what gvi_why says */
+static const char *ride(const lagrangian_function *function, lagrangian_kind kind, int verlet, real *end)
+{
+    static lagrangian L;
+    static char why[400];
+    const real q[] = { 0, R(0.1) }, v[] = { 25, R(0.25) };
+    assert_null(lagrangian_init(&L, *function, NULL, 0, q, v));
+    L.kind = kind;
+    const gvi_effect scene[] = { lagrangian_effect(&L) };
+    gvi_desc desc = { .n = function->n, .effects = scene, .effect_count = 1, .mass = lagrangian_mass(&L) };
+    if (verlet) desc.degree = 1, desc.rule = (gvi_rule){ .kind = GVI_LOBATTO, .points = 2 };
+    gvi_stepper st = new_motion(&desc, 0, q, v);
+    for (int k = 0; k < 600 && st.status == GVI_OK; ++k) gvi_step(&st, R(0.01));
+    *end = st.q[0];
+    if (st.status == GVI_OK) return NULL;
+    assert_int_equal(st.status, GVI_E_CALLBACK);
+    return strcpy(why, gvi_why(&st));
+}
+
+static void assert_says(const char *wrong, const char *sentence)
+{
+    assert_non_null(wrong);
+    if (!strstr(wrong, sentence)) print_error("\"%s\" is not \"%s\"\n", wrong, sentence);
+    assert_non_null(strstr(wrong, sentence));
+}
+
+TEST(watch_sees_another_kind)
+{
+    real end, mass, general;
+    for (int verlet = 0; verlet < 2; ++verlet) {
+        assert_says(ride(&bump, LAGRANGIAN_POTENTIAL, verlet, &end), "set L.kind = LAGRANGIAN_MASS after lagrangian_init");
+        assert_between(40, end, 50);
+    }
+    assert_null(ride(&bump, LAGRANGIAN_MASS, 0, &mass));
+    assert_null(ride(&bump, LAGRANGIAN_GENERAL, 0, &general));
+    assert_close(mass, general, 45000*EPS*150);
+    assert_says(ride(&field_far_off, LAGRANGIAN_POTENTIAL, 0, &end), "set L.kind = LAGRANGIAN_LINEAR after lagrangian_init");
+    assert_between(30, end, 50);
+    assert_null(ride(&field_far_off, LAGRANGIAN_LINEAR, 0, &end));
+}
+
+/* the wall stands at 50; steps are 1/4 long, and a look at derivatives comes within four of them */
+TEST(watch_sees_a_derivative_lost_on_the_way)
+{
+    real end;
+    assert_says(ride(&wall_far_off, LAGRANGIAN_POTENTIAL, 0, &end), "dL/dq[0] is 0 by numbers, -");
+    assert_between(49.9L, end, 51);
+}
+
+TEST(watch_sees_a_mass_changed)
+{
+    static lagrangian L;
+    real m = 1;
+    const real q[] = { 1 }, v[] = { R(0.5) };
+    assert_null(lagrangian_init(&L, switched, &m, 0, q, v));
+    const gvi_effect scene[] = { lagrangian_effect(&L) };
+    const gvi_desc desc = { .n = 1, .effects = scene, .effect_count = 1, .mass = lagrangian_mass(&L) };
+    gvi_stepper st = new_motion(&desc, 0, q, v);
+    for (int k = 0; k < 10; ++k) assert_ok(gvi_step(&st, R(0.125)));
+    m = 2;
+    for (int k = 0; k < 3 && st.status == GVI_OK; ++k) gvi_step(&st, R(0.125));
+    assert_int_equal(st.status, GVI_E_CALLBACK);
+    assert_says(gvi_why(&st), "its dL/dv[0] is");
+    m = 1;
+    for (int k = 0; k < 20; ++k) assert_ok(gvi_step(&st, R(0.125)));
+}
+
+/* -- what has no units, and what only cancels */
+
+LAGRANGIAN(length, 2) { return sqrt(v[0]*v[0] + sin(q[0])*sin(q[0])*v[1]*v[1]); }
+LAGRANGIAN(multiplied, 3) { return (v[0]*v[0] + v[1]*v[1])/2 - g*q[1] + q[2]*(q[0]*q[0] + q[1]*q[1] - 1); }
+LAGRANGIAN(electron, 1) { return R(-81871.0)*sqrt(1 - v[0]*v[0]/R(8.98755179e16)) + R(0.16)*q[0]; }
+LAGRANGIAN(slow, 1) { return exp(-t/R(3e13))*v[0]*v[0]/2; }
+LAGRANGIAN(strong, 1) { return v[0]*v[0]/2 + R(1e12)*v[0] - q[0]*q[0]/2; }
+LAGRANGIAN(small_mass, 1) { return R(1.3e-30)*(v[0]*v[0] - q[0]*q[0])/2; }
+LAGRANGIAN(turned_back, 2)
+{
+    const number x = v[0] - 3*q[1], y = v[1] + 3*q[0];
+    return (x*x + y*y)/2 + 3*(q[1]*v[0] - q[0]*v[1]) - 10*(q[0]*q[0] + q[1]*q[1]);
+}
+LAGRANGIAN(two_large_ones, 1) { return 1024*v[0]*v[0] - R(1023.5)*v[0]*v[0] - q[0]*q[0]/2; }
+LAGRANGIAN(noisy, 1) { return v[0]*v[0]/2 - q[0]*q[0]/2 + R(1e-8)*sin(1e12*(double)creal(q[0])); }
+LAGRANGIAN(half, 1) { return v[0]*v[0]/2 - 1/2*9*q[0]*q[0]; }
+
+TEST(no_units)
+{
+    const struct { const lagrangian_function *L; lagrangian_kind kind; real q[2], v[2]; } cases[] = {
+        { &electron, LAGRANGIAN_GENERAL, { 0 }, { 0 } },      { &slow, LAGRANGIAN_MASS, { 0 }, { 1 } },
+        { &strong, LAGRANGIAN_LINEAR, { 0 }, { 0 } },         { &small_mass, LAGRANGIAN_POTENTIAL, { 1 }, { R(0.5) } },
+        { &turned_back, LAGRANGIAN_POTENTIAL, { 1, R(0.3) }, { R(0.2), R(0.5) } },
+        { &two_large_ones, LAGRANGIAN_POTENTIAL, { 1 }, { R(0.2) } },
+        { &noisy, LAGRANGIAN_POTENTIAL, { 1 }, { R(0.5) } },
+    };
+    static lagrangian L;
+    for (int k = 0; k < COUNT(cases); ++k) {
+        const char *wrong = lagrangian_init(&L, *cases[k].L, NULL, 0, cases[k].q, cases[k].v);
+        if (wrong) print_error("%s\n", wrong);
+        assert_null(wrong);
+        if (L.kind != cases[k].kind) print_error("%d: %s\n", k, lagrangian_text(&L));
+        assert_int_equal(L.kind, cases[k].kind);
+    }
+    assert_null(lagrangian_init(&L, strong, NULL, 0, zeros, zeros));
+    assert_close(L.M[0], 1, 0);
+    assert_null(lagrangian_init(&L, small_mass, NULL, 0, zeros, zeros));
+    assert_close(L.M[0], R(1.3e-30), 0);
+    assert_null(lagrangian_init(&L, half, NULL, 0, some_q, zeros));
+    assert_string_equal(lagrangian_text(&L), "v'Mv/2, no q seen in it");
+    assert_refused(&length, some_q, some_v, "of first degree in v");
+    assert_refused(&multiplied, (real[]){ 1, 0, 0 }, (real[]){ 0, 0, 0 }, "by HOLDS (GVI_CONSTRAINT)");
+}
+
+/* -- rows typed, against derivatives by hand */
+
+HOLDS(circle, 3, 1) { row[0] = q[0]*q[0] + q[1]*q[1] - 1 - sin(t)*q[0]; }
+ROLLS(blade, 3, 1) { row[0] = sin(q[2])*v[0] - cos(q[2])*v[1] + q[0]*t; }
+ROLLS(curved, 3, 1) { row[0] = sin(q[2])*v[0] - cos(q[2])*v[1] + v[0]*v[1]; }
+ROLLS(rolls_trap, 3, 1) { row[0] = sin(q[2])*v[0] - (real)creal(cos(q[2])*v[1]); }
+HOLDS(holds_trap, 2, 1) { row[0] = q[0]*q[0] + q[1]*q[1] + q[0]*(real)creal(q[1]) - 1; }
+DISSIPATION(drag, 3) { return (v[0]*v[0] + v[1]*v[1])*(2 + q[0])/8; }
+DISSIPATION(drag_trap, 3) { return (v[0]*v[0] + v[1]*(real)creal(v[1]))/2; }
+
+static const real two_t[] = { R(0.5), 1 }, two_q[] = { R(0.25), R(0.5), 1, 2, R(0.75), R(-0.5) }, two_v[] = { 1, 2, 3, 4, 5, 6 };
+
+TEST(typed_rows_have_their_derivatives)
+{
+    real row[2], G[6], rate[2], f[6] = { 0 };
+    const char *why = NULL;
+    const real *q = two_q;
+    gvi_points x = { .n = 3, .count = 2, .stride = 2, .t = two_t, .q = q, .g = row, .jacobian = G, .rate = rate, .why = &why };
+    assert_int_equal(circle(&x, NULL), 0);
+    for (int k = 0; k < 2; ++k) {
+        assert_close(row[k], q[k]*q[k] + q[2 + k]*q[2 + k] - 1 - sinl(two_t[k])*q[k], 8*EPS);
+        assert_close(G[k], 2*q[k] - sinl(two_t[k]), 8*EPS);
+        assert_close(G[2 + k], 2*q[2 + k], 8*EPS);
+        assert_close(G[4 + k], 0, 0);
+        assert_close(rate[k], -cosl(two_t[k])*q[k], 8*EPS);
+    }
+    assert_int_equal(blade(&x, NULL), 0);
+    for (int k = 0; k < 2; ++k) {
+        assert_close(G[k], sinl(q[4 + k]), 8*EPS);
+        assert_close(G[2 + k], -cosl(q[4 + k]), 8*EPS);
+        assert_close(rate[k], q[k]*two_t[k], 8*EPS);
+    }
+    x.v = two_v;
+    x.f = f;
+    assert_int_equal(drag(&x, NULL), 0);
+    for (int k = 0; k < 2; ++k) assert_close(f[2 + k], -two_v[2 + k]*(2 + q[k])/4, 8*EPS);
+    assert_null(why);
+}
+
+TEST(typed_rows_refuse)
+{
+    real row[6], G[18], rate[6], f[18] = { 0 }, t[6], q[18], v[18];
+    const char *why = NULL;
+    for (int k = 0; k < 18; ++k) {
+        t[k/3] = (real)(k/3)/8;
+        q[k] = 1 + (real)k/32;
+        v[k] = 1 + (real)k/16;
+    }
+    gvi_points x = { .n = 3, .count = 6, .stride = 6, .t = t, .q = q, .v = v, .f = f, .g = row, .jacobian = G, .rate = rate, .why = &why };
+    const struct { gvi_points_fn *fn; int n; const char *says; } cases[] = {
+        { curved, 3, "a row of ROLLS is not linear in v" },     { rolls_trap, 3, "or has lost a derivative" },
+        { holds_trap, 2, "a row of HOLDS has lost" },           { drag_trap, 3, "DISSIPATION has lost a derivative" },
+        { circle, 2, "HOLDS is of another n" },                 { blade, 2, "ROLLS is of another n" },
+        { drag, 2, "DISSIPATION is of another n" },
+    };
+    for (int k = 0; k < COUNT(cases); ++k) {
+        x.n = cases[k].n;
+        why = NULL;
+        assert_int_not_equal(cases[k].fn(&x, NULL), 0);
+        assert_says(why, cases[k].says);
+    }
+    x.n = 3;
+    assert_int_equal(circle(&x, NULL), 0);
+    assert_int_equal(blade(&x, NULL), 0);
+    assert_int_equal(drag(&x, NULL), 0);
+}
+
 /* -- H(q,p) */
 
 /* two vortices of strength 1, q = x, p = y, at a distance d: they turn about their middle with 1/(pi d^2) */
@@ -598,7 +819,7 @@ TEST(h_and_l_are_one_motion)
 
 HAMILTONIAN(trap_of_h, 1)
 {
-    const real r = creal(p[0]);
+    const real r = (real)creal(p[0]);
     return r*r/2 + q[0]*q[0];
 }
 

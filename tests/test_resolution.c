@@ -157,7 +157,8 @@ static real measure_of(int s, long double t, long double h)
     const long double high = y[0] + y[1], low = y[2] + y[3], lower = y[4] + y[5];
     long double rho = sqrtl(high/low);
     if (s >= 6) rho = fmaxl(powl(high/lower, 0.25L), 0.8L*fmaxl(rho, sqrtl(low/lower)));
-    rho = fmaxl(rho, powl(fminl(y[0]/y[1], 1), 0.25L)*powl(high/low, 0.375L));
+    if (s < 5) rho = fmaxl(rho, y[0]/(2*y[1]));              // there is no step before
+    else rho = fmaxl(rho, powl(fminl(y[0]/y[1], 1), 0.25L)*powl(high/low, 0.375L));
     return (real)(high*fminl(1, 10*powl(fminl(rho, 1), s))/(sum + high + low));
 }
 
@@ -167,7 +168,8 @@ TEST(the_measure_is_that_of_the_modes)
 {
     static const gvi_effect effects[] = { { .points = spring } };
     for (int degree = 4; degree <= (KIND == 1 ? 6 : 8); ++degree) {
-        const gvi_desc desc = { .n = 1, .degree = degree, .effects = effects, .effect_count = 1, .resolution = R(0.999) };
+        const gvi_desc desc = { .n = 1, .degree = degree, .effects = effects, .effect_count = 1,
+                                .resolution = R(0.999), .tolerance = EPS/65536 };
         for (int k = 0; k < 24; ++k) {
             const real t = (real)k/8, h = 2;
             gvi_stepper st = new_motion(&desc, t, (const real[]){ sin(t) }, (const real[]){ cos(t) });
@@ -312,7 +314,8 @@ TEST(a_start_leaves_nothing_of_the_last_lengths)
     }
 }
 
-/* A body that a stiff spring ties to another: from h = 1 on three lengths, each 3 rungs shorter, come before Newton's method */
+/* A body that a stiff spring ties to another: Newton's method is for lengths 16 rungs below the one that the resolution may
+   have allowed.  From h = 1, at rung 8, the lengths at 5, 2 .. -7 come first, and -10 is 3/64 */
 GVI_EACH(tied, 2, f)
 {
     const real tie = R(1e6)*(x->q[1] - x->q[0]);
@@ -329,8 +332,8 @@ TEST(shorter_steps_come_before_newtons_method)
     st.next = 1;
     assert_ok(gvi_advance(&st, 20));
     assert_int_equal(st.formulation, GVI_NEWTON);
-    assert_int_equal(st.counters.failures, 3);
-    assert_true(st.h == R(7.0)/32);
+    assert_int_equal(st.counters.failures, 6);
+    assert_true(st.h == R(3.0)/64);
     st = new_motion(&desc, 0, q, v);              // gvi_step goes over to it at once
     st.next = R(1e-5);
     assert_ok(gvi_advance(&st, 20));
@@ -430,7 +433,7 @@ TEST(h_stays_within_a_band)
         least = fmin(least, st.h);
         most = fmax(most, st.h);
     }
-    assert_true(most <= 2*least && 5*changes <= 2*steps && st.counters.failures <= 2);
+    assert_true(most <= 2*least && 5*changes <= 2*steps && st.counters.failures <= (KIND == 1 ? 4 : 2));
 }
 
 AT_EACH(noise) { x->f[a] += uniform() - R(0.5); }
@@ -462,7 +465,7 @@ TEST(long_steps_are_found_at_high_degrees)
         gvi_stepper st = new_motion(&desc, 0, (const real[]){ 1 }, (const real[]){ 0 });
         int steps = 0;
         for (; st.t < 100; ++steps) assert_ok(gvi_advance(&st, 100));
-        assert_true(steps <= 30);
+        assert_true(steps <= (KIND == 1 ? 33 : 30));     // a dial of 84 eps
         assert_close(st.q[0], cos((real)100), 100*(KIND == 1 ? R(1e-5) : R(1e-13)));
     }
 }
@@ -566,6 +569,25 @@ TEST(what_moves_by_rounding_alone_does_not_decide)
         int steps = 0;
         for (; st.t < 1 && steps < 1000; ++steps) assert_ok(gvi_advance(&st, 1));
         assert_true(st.t >= 1);
+    }
+}
+
+/* A ball falls onto a soft wall: q + exp(-10 q)/10 + v^2/2 is 10.  What the wall does is small beside the weight at first */
+GVI_EACH(weight_and_wall, 1, f) { x->f[0] += exp(-10*x->q[0]) - 1; }
+
+TEST(a_force_that_begins_beside_a_constant_one_is_seen)
+{
+    static const gvi_effect effects[] = { { .points = weight_and_wall } };
+    if (KIND == 1) return;
+    for (int degree = 3; degree < 5; ++degree) {
+        const real limit = degree == 3 ? R(1e-8) : R(1e-10);
+        const gvi_desc desc = { .n = 1, .degree = degree, .effects = effects, .effect_count = 1, .resolution = limit };
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ 10 }, (const real[]){ 0 });
+        while (st.t < 20) {
+            assert_ok(gvi_advance(&st, 20));
+            const real v = st.p[0], energy = st.q[0] + exp(-10*st.q[0])/10 + v*v/2;
+            assert_close(energy, 10, 100*limit*20*(real)st.counters.steps/16 + 4096*EPS);
+        }
     }
 }
 

@@ -629,4 +629,32 @@ TEST(gvi_each_has_the_bits_of_gvi_points)
     assert_close(st.q[0], -1, 1e-5L);                       // half a period of omega = 2, error 3e-6 at degree 3
 }
 
+/* a sentence from a callback: effect and mass; it does not outlive its call */
+static const char *road_ends(const gvi_points *x) { return x->q[x->count - 1] > 1 ? "the road ends here" : NULL; }
+AT_POINTS(on_the_road) { return road_ends(x) ? gvi_fail(x, road_ends(x)) : 0; }
+AT_POINTS(on_the_road_mute) { return road_ends(x) != NULL; }
+GVI_POINTS(on_the_road_each, 1, f)(const gvi_points *x, void *user) { return road_ends(x) ? gvi_fail(x, road_ends(x)) : 0; }
+AT_POINTS(heavy_road)
+{
+    for (int k = 0; k < x->count; ++k) x->mass[k] = 1;
+    return on_the_road(x, user);
+}
+
+TEST(a_callback_says_why)
+{
+    gvi_points_fn *effects[] = { on_the_road, on_the_road_each, on_the_road_mute, NULL };
+    for (int k = 0; k < 4; ++k) {
+        const gvi_effect effect = { .kind = GVI_POTENTIAL, .points = effects[k] ? effects[k] : nothing };
+        gvi_desc desc = { .n = 1, .degree = 3, .effects = &effect, .effect_count = 1 };
+        if (k == 3) desc.mass = (gvi_mass){ .kind = GVI_MASS_POSITION, .points = heavy_road, .gradient = nothing };
+        const real q[] = { 0 }, v[] = { 1 };
+        gvi_stepper st = new_motion(&desc, 0, q, v);
+        assert_ok(gvi_step(&st, R(0.5)));
+        assert_status(gvi_step(&st, 1), GVI_E_CALLBACK);
+        says(&st, GVI_E_CALLBACK, k == 2 ? "an effect (fault.effect) did not return 0" : "the road ends here");
+        assert_ok(gvi_step(&st, R(0.25)));
+        assert_null(st.fault.argument);
+    }
+}
+
 RUN_TESTS(NULL, NULL)

@@ -170,15 +170,18 @@ static void own_add(const lagrangian_wanted *a)
     const int n = own.n, R = x->stride;
     double q[LAGRANGIAN_MOST], w[LAGRANGIAN_MOST];
     for (int k = 0; k < x->count; ++k) {
+        if (lagrangian_rests(a, k)) continue;
         for (int i = 0; i < n; ++i) {
             q[i] = x->q[i*R + k];
-            w[i] = a->w ? a->w[i*R + k] : i == a->one;
+            w[i] = a->times*(a->w ? a->w[i*R + k] : i == a->one);
         }
         own_state(x->t[k], q, w);
-        const double L = own_sweep();
-        for (int i = 0; i < n && a->by_q; ++i) a->by_q[i*R + k] += a->scale*own.adjoint[1 + i];
+        const double L = own_sweep(), *slope = own.adjoint + 1;
+        for (int i = 0; i < n && a->by_q; ++i)
+            if (!(fabs(slope[i]) <= a->least*fabs(L))) a->by_q[i*R + k] += a->scale*slope[i];
         for (int i = a->first; i < a->end && a->by_w; ++i)
-            a->by_w[i*a->apart + k] += a->scale*own.adjoint[1 + n + i];
+            a->by_w[i*a->apart + k] += a->scale*slope[n + i];
+        for (int d = 0; d < 2*n && a->along; ++d) a->by_along[k] += a->scale*a->along[d]*slope[d];
         if (a->value) a->value[k] += a->scale*L;
     }
 }

@@ -23,8 +23,9 @@ from gvi import pointer, real, view
 
 
 class Wanted(C.Structure):
-    _fields_ = [("x", C.POINTER(gvi.gvi_points)), ("w", pointer), ("one", C.c_int), ("scale", real), ("value", pointer),
-                ("by_q", pointer), ("by_w", pointer), ("first", C.c_int), ("end", C.c_int), ("apart", C.c_int), ("user", C.c_void_p)]
+    _fields_ = [("x", C.POINTER(gvi.gvi_points)), ("w", pointer), ("one", C.c_int), ("times", real), ("scale", real),
+                ("least", real), ("value", pointer), ("by_q", pointer), ("by_w", pointer), ("first", C.c_int), ("end", C.c_int),
+                ("apart", C.c_int), ("along", pointer), ("by_along", pointer), ("user", C.c_void_p)]
 
 
 add_fn = C.CFUNCTYPE(None, C.POINTER(Wanted))
@@ -40,18 +41,20 @@ def adds(L):
         z = np.zeros((2*n, count), dtype=complex)
         z[:n] = view(x.q, (n, count), stride)
         if a.w:
-            z[n:] = view(a.w, (n, count), stride)
+            z[n:] = a.times*view(a.w, (n, count), stride)
         elif a.one >= 0:
-            z[n + a.one] = 1
+            z[n + a.one] = a.times
         t = view(x.t, (count,))
-        directions = [(i, a.by_q, i*stride) for i in range(n) if a.by_q]
-        directions += [(n + i, a.by_w, i*a.apart) for i in range(a.first, a.end) if a.by_w]
+        one = np.eye(2*n)
+        directions = [(one[i], a.by_q, i*stride) for i in range(n) if a.by_q]
+        directions += [(one[n + i], a.by_w, i*a.apart) for i in range(a.first, a.end) if a.by_w]
+        directions += [(view(a.along, (2*n,)), a.by_along, 0)] if a.along else []
         value = None
-        for d, out, at in directions:
-            z[d] += 1j*STEP
-            value = L(t, z[:n], z[n:])
-            z[d] = z[d].real
-            view(out, (at + count,))[at:] += a.scale*(np.imag(value)/STEP)
+        for direction, out, at in directions:
+            value = L(t, *np.split(z + 1j*STEP*direction[:, None], 2))
+            slope = np.imag(value)/STEP
+            slope = np.where(np.abs(slope) <= a.least*np.abs(np.real(value)), 0, slope)
+            view(out, (at + count,))[at:] += a.scale*slope
         if a.value:
             value = L(t, z[:n], z[n:]) if value is None else value
             view(a.value, (count,))[:] += a.scale*np.real(value)

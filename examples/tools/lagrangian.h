@@ -16,28 +16,45 @@
 
      number r2 = q[0]*q[0] + q[1]*q[1];         // `double r2` would lose its derivative
 
-   Functions: sqrt exp log pow sin cos tan fabs, in C also the others of <tgmath.h> that take complex
-   numbers.  The same text compiles as C and as C++.  There is no `if (q[0] < 0)`, because L has
-   to be smooth: a step over a kink, as of fabs at 0, is of order 2 at most.
+   Functions: sqrt cbrt exp log pow, sin cos tan asin acos atan atan2, sinh cosh tanh asinh acosh atanh,
+   hypot fabs.  The same text compiles as C and as C++.  There is no `if (q[0] < 0)`, because L has to be
+   smooth: a step over a kink, as of fabs at 0, is of order 2 at most.  1/2 is 0, as everywhere in C.
 
    C99 with gcc or clang, or C++11.
 
    First derivatives of L are exact to rounding.  In C, number is complex, and the imaginary part
    carries the derivative by one coordinate (complex step); in C++ a dual number carries those by
-   all of them.  lagrangian_init looks at L near the start, and near it on wider scales, for what it is:
+   all of them.  lagrangian_init looks at L at the start and at many distances, times and speeds, small
+   and large, for what it is:
 
-     LAGRANGIAN_POTENTIAL  v'Mv/2 - V(t,q)          steps without velocities
-     LAGRANGIAN_LINEAR     v'Mv/2 + a(t,q)'v - V    velocities
-     LAGRANGIAN_MASS       v'M(t,q)v/2 - V(t,q)     momenta
-     LAGRANGIAN_GENERAL    anything else            Newton's method
+     LAGRANGIAN_POTENTIAL    v'Mv/2 - V(t,q)              steps without velocities
+     LAGRANGIAN_LINEAR       v'Mv/2 + a(t,q)'v - V        momenta
+     LAGRANGIAN_MASS         v'M(t,q)v/2 - V(t,q)         momenta
+     LAGRANGIAN_MASS_LINEAR  v'M(t,q)v/2 + a(t,q)'v - V   momenta
+     LAGRANGIAN_GENERAL      anything else                Newton's method
 
-   L.kind says which.  An L that is of one kind near the start and of another far away cannot be
-   known: set L.kind = LAGRANGIAN_GENERAL after lagrangian_init, which covers all.  So it is with
-   the entries of M that vary.  Of the first kind, with many coordinates, -dV/dq by hand saves most.
+   L.kind says which.  No look at the start shows that L is so everywhere.  Therefore the callbacks
+   watch: now and then they compare a dL/dv_i of L with what L.kind says, where the motion is, and in C a
+   derivative with a difference.  What is off by more than rounding makes the step fail, the state stays
+   as it was before it, and gvi_why says where and what to set: L.kind = LAGRANGIAN_MASS, say, between
+   lagrangian_init and lagrangian_effect.  Of the first kind, with many coordinates, -dV/dq by hand saves
+   most.
 
    Refused, with a sentence: derivatives lost to a `double`; L not finite at the start; no kinetic
-   energy in a coordinate; n above LAGRANGIAN_MOST (32; define it before the header).  By the
-   callbacks (GVI_E_CALLBACK): a desc.n that is another.
+   energy in a coordinate; a multiplier; a length, sqrt(v'g(q)v); n above LAGRANGIAN_MOST (32; define
+   it before the header).  By the callbacks (GVI_E_CALLBACK): a desc.n that is another.
+
+   Constraints, rolling and friction, typed likewise, are rows for desc.effects by themselves:
+
+     HOLDS(rod, 2, 1) { row[0] = q[0]*q[0] + q[1]*q[1] - 1; }              // t, q, user; n, rows: g(t,q)
+     ROLLS(edge, 3, 1) { row[0] = sin(q[2])*v[0] - cos(q[2])*v[1]; }       // A(t,q)v + a(t,q)
+     DISSIPATION(drag, 2) { return 0.1*(v[0]*v[0] + v[1]*v[1])/2; }        // Rayleigh's F(t,q,v): f = -dF/dv
+
+     { .kind = GVI_CONSTRAINT, .points = rod, .rows = 1 }
+     { .kind = GVI_NONHOLONOMIC, .points = edge, .rows = 1 }
+     { .kind = GVI_FORCE, .points = drag }
+
+   A row of ROLLS that is not linear in v fails, and so does, in C, one that has lost a derivative.
 
    H(t,q,p) likewise, for momenta: a vortex, a spin, populations; or a mass that you know in p.
 
@@ -72,14 +89,28 @@
 #define LAGRANGIAN__UNUSED
 #endif
 
+/* Numbers are double where the library's are float: products of small ones do not underflow. */
+#if GVI__KIND == 1
+typedef double lagrangian_real;
+#define LAGRANGIAN__SQRT(x) sqrt(x)
+#else
+typedef GVI_REAL lagrangian_real;
+#define LAGRANGIAN__SQRT(x) GVI_SQRT(x)
+#endif
+
 /* What is wanted of a function F(t,q,w) at the points of x: `scale` times its value and its
    derivatives, added to what is not NULL.                                      */
 typedef struct lagrangian_wanted {
     const gvi_points *x;              /* t, q                                   */
     const gvi_real   *w;              /* [n][stride] v or p; NULL: 0, but       */
     int               one;            /* w[one] = 1; -1: nowhere                */
-    gvi_real          scale, *value, *by_q, *by_w;
+    lagrangian_real   times;          /* w, or the 1, times this                */
+    lagrangian_real   scale;
+    lagrangian_real   least;          /* not 0: nothing where w is 0, no derivative below `least` times the value */
+    gvi_real         *value, *by_q, *by_w;
     int               first, end, apart;  /* of by_w: these coordinates, [.][apart] */
+    const gvi_real   *along;          /* [2n] if not NULL: of derivatives only that in this direction */
+    gvi_real         *by_along;       /* [count]                                */
     const void       *user;
 } lagrangian_wanted;
 
@@ -88,73 +119,135 @@ typedef struct lagrangian_function {
     void (*add)(const lagrangian_wanted *wanted);
 } lagrangian_function;
 
-/* -------------------------------------------------- numbers with a derivative */
+LAGRANGIAN__INLINE int lagrangian_is_zero(lagrangian_real x) { return x <= 0 && x >= 0; }
+
+/* Is there nothing to add at point k? */
+LAGRANGIAN__INLINE int lagrangian_rests(const lagrangian_wanted *a, int k)
+{
+    if (!(a->least > 0)) return 0;
+    for (int i = 0; i < a->x->n; ++i)
+        if (!lagrangian_is_zero((lagrangian_real)a->w[i*a->x->stride + k])) return 0;
+    return 1;
+}
+
+/* Rows at one point: values [m], and slopes [m][n + 1] by q and t, or by v; w NULL: 0 */
+enum { LAGRANGIAN__VALUES, LAGRANGIAN__BY_Q, LAGRANGIAN__BY_V };
+typedef void lagrangian_rows(lagrangian_real t, const lagrangian_real *q, const lagrangian_real *w, int by,
+                             lagrangian_real *values, lagrangian_real *slopes, const void *user);
+
+static inline int lagrangian_holds(lagrangian_rows *rows, int n, int m, lagrangian_real *room, const gvi_points *x, void *user);
+static inline int lagrangian_rolls(lagrangian_rows *rows, int n, int m, lagrangian_real *room, const gvi_points *x, void *user);
+static inline int lagrangian_dissipates(const lagrangian_function *F, const gvi_points *x, void *user);
+
+/* -------------------------------------------------- numbers with a derivative
+
+   y of x, and dy/dx; z of x and y, dz/dx and dz/dy                             */
+#define LAGRANGIAN__OF_ONE(OF)                                                                  \
+    OF(sqrt, LAGRANGIAN__SQRT(x), 1/(2*y))                                                      \
+    OF(cbrt, cbrt(x), 1/(3*y*y))                                                                \
+    OF(exp, exp(x), y)                                                                          \
+    OF(log, log(x), 1/x)                                                                        \
+    OF(sin, sin(x), cos(x))                                                                     \
+    OF(cos, cos(x), -sin(x))                                                                    \
+    OF(tan, tan(x), 1 + y*y)                                                                    \
+    OF(asin, asin(x), 1/sqrt((1 - x)*(1 + x)))                                                  \
+    OF(acos, acos(x), -1/sqrt((1 - x)*(1 + x)))                                                 \
+    OF(atan, atan(x), 1/(1 + x*x))                                                              \
+    OF(sinh, sinh(x), cosh(x))                                                                  \
+    OF(cosh, cosh(x), sinh(x))                                                                  \
+    OF(tanh, tanh(x), (1 - y)*(1 + y))                                                          \
+    OF(asinh, asinh(x), 1/sqrt(1 + x*x))                                                        \
+    OF(acosh, acosh(x), 1/sqrt((x - 1)*(x + 1)))                                                \
+    OF(atanh, atanh(x), 1/((1 - x)*(1 + x)))                                                    \
+    OF(fabs, fabs(x), x < 0 ? -1 : 1)
+#define LAGRANGIAN__OF_TWO(OF)                                                                  \
+    OF(pow, pow(x, y), y*pow(x, y - 1), z*log(x))                                               \
+    OF(atan2, atan2(x, y), y/(x*x + y*y), -x/(x*x + y*y))                                       \
+    OF(hypot, hypot(x, y), x/z, y/z)
 
 #ifndef __cplusplus
 #include <tgmath.h>
 #undef I                              /* <complex.h> comes with it; I is a user's name */
 
-/* sqrt(number) and the like keep the first derivative alone: a third of the time of csqrt. */
+/* Functions of a number keep the first derivative alone: sqrt takes a third of the time of csqrt. */
+#if GVI__KIND == 1
+typedef double complex number;
+#else
 typedef GVI_REAL complex number;
+#endif
+#define LAGRANGIAN__STEP ((lagrangian_real)0x1p-332)
+enum { LAGRANGIAN__LOSES = 1 };       /* a derivative, where a double is given a number */
 
-enum { LAGRANGIAN__FLOAT = sizeof(gvi_real) == sizeof(float) };
-#define LAGRANGIAN__STEP ((gvi_real)(LAGRANGIAN__FLOAT ? 0x1p-64 : 0x1p-332))
-
-LAGRANGIAN__INLINE number lagrangian_number(gvi_real value, gvi_real derivative)
+LAGRANGIAN__INLINE number lagrangian_number(lagrangian_real value, lagrangian_real derivative)
 {
-    union { number z; gvi_real part[2]; } u;
+    union { number z; lagrangian_real part[2]; } u;
     u.part[0] = value;
     u.part[1] = derivative;
     return u.z;
 }
 
-LAGRANGIAN__INLINE int lagrangian_is_zero(gvi_real x) { return x <= 0 && x >= 0; }
-
 #define LAGRANGIAN__NUMBER(name, value, slope)                                                  \
-    static inline number name(number z)                                                         \
+    static inline number lagrangian_##name(number a)                                            \
     {                                                                                           \
-        const gvi_real x = creal(z), d = cimag(z);                                              \
+        const lagrangian_real x = creal(a), d = cimag(a);                                       \
         if (lagrangian_is_zero(d)) return value;                                                \
-        const gvi_real y = value;                                                               \
+        const lagrangian_real y = value;                                                        \
         return lagrangian_number(y, (slope)*d);                                                 \
     }
-LAGRANGIAN__NUMBER(lagrangian_sqrt, GVI_SQRT(x), 1/(2*y))
-LAGRANGIAN__NUMBER(lagrangian_exp, exp(x), y)
-LAGRANGIAN__NUMBER(lagrangian_log, log(x), 1/x)
-LAGRANGIAN__NUMBER(lagrangian_sin, sin(x), cos(x))
-LAGRANGIAN__NUMBER(lagrangian_cos, cos(x), -sin(x))
-LAGRANGIAN__NUMBER(lagrangian_tan, tan(x), 1 + y*y)
-LAGRANGIAN__NUMBER(lagrangian_abs, fabs(x), y > x ? -1 : 1)
-
-LAGRANGIAN__INLINE number lagrangian_pow(number z, number exponent)
-{
-    const gvi_real x = creal(z), d = cimag(z), a = creal(exponent), da = cimag(exponent), y = pow(x, a);
-    gvi_real slope = 0;
-    if (!lagrangian_is_zero(d)) slope = a*pow(x, a - 1)*d;
-    if (!lagrangian_is_zero(da)) slope += y*log(x)*da;
-    return lagrangian_number(y, slope);
-}
+#define LAGRANGIAN__NUMBERS(name, value, slope_x, slope_y)                                      \
+    LAGRANGIAN__INLINE number lagrangian_##name(number a, number b)                             \
+    {                                                                                           \
+        const lagrangian_real x = creal(a), y = creal(b), dx = cimag(a), dy = cimag(b), z = value; \
+        const lagrangian_real by_x = lagrangian_is_zero(dx) ? 0 : (slope_x)*dx;                 \
+        return lagrangian_number(z, lagrangian_is_zero(dy) ? by_x : by_x + (slope_y)*dy);       \
+    }
+LAGRANGIAN__OF_ONE(LAGRANGIAN__NUMBER)
+LAGRANGIAN__OF_TWO(LAGRANGIAN__NUMBERS)
 
 /* of complex numbers these, of anything else what <math.h> has */
-#define LAGRANGIAN__EITHER(x, of_number, name)                                                  \
-    (__extension__ _Generic((x), float complex: of_number, double complex: of_number,           \
-                            long double complex: of_number, float: name##f, long double: name##l, default: name))
+#define LAGRANGIAN__EITHER(x, name)                                                             \
+    (__extension__ _Generic((x), float complex: lagrangian_##name, double complex: lagrangian_##name, \
+                            long double complex: lagrangian_##name, float: name##f, long double: name##l, default: name))
 #undef sqrt
+#undef cbrt
 #undef exp
 #undef log
 #undef sin
 #undef cos
 #undef tan
+#undef asin
+#undef acos
+#undef atan
+#undef sinh
+#undef cosh
+#undef tanh
+#undef asinh
+#undef acosh
+#undef atanh
 #undef fabs
 #undef pow
-#define sqrt(x) LAGRANGIAN__EITHER(x, lagrangian_sqrt, sqrt)(x)
-#define exp(x)  LAGRANGIAN__EITHER(x, lagrangian_exp, exp)(x)
-#define log(x)  LAGRANGIAN__EITHER(x, lagrangian_log, log)(x)
-#define sin(x)  LAGRANGIAN__EITHER(x, lagrangian_sin, sin)(x)
-#define cos(x)  LAGRANGIAN__EITHER(x, lagrangian_cos, cos)(x)
-#define tan(x)  LAGRANGIAN__EITHER(x, lagrangian_tan, tan)(x)
-#define fabs(x) LAGRANGIAN__EITHER(x, lagrangian_abs, fabs)(x)
-#define pow(x, y) LAGRANGIAN__EITHER((x) + (y), lagrangian_pow, pow)(x, y)
+#undef atan2
+#undef hypot
+#define sqrt(x)     LAGRANGIAN__EITHER(x, sqrt)(x)
+#define cbrt(x)     LAGRANGIAN__EITHER(x, cbrt)(x)
+#define exp(x)      LAGRANGIAN__EITHER(x, exp)(x)
+#define log(x)      LAGRANGIAN__EITHER(x, log)(x)
+#define sin(x)      LAGRANGIAN__EITHER(x, sin)(x)
+#define cos(x)      LAGRANGIAN__EITHER(x, cos)(x)
+#define tan(x)      LAGRANGIAN__EITHER(x, tan)(x)
+#define asin(x)     LAGRANGIAN__EITHER(x, asin)(x)
+#define acos(x)     LAGRANGIAN__EITHER(x, acos)(x)
+#define atan(x)     LAGRANGIAN__EITHER(x, atan)(x)
+#define sinh(x)     LAGRANGIAN__EITHER(x, sinh)(x)
+#define cosh(x)     LAGRANGIAN__EITHER(x, cosh)(x)
+#define tanh(x)     LAGRANGIAN__EITHER(x, tanh)(x)
+#define asinh(x)    LAGRANGIAN__EITHER(x, asinh)(x)
+#define acosh(x)    LAGRANGIAN__EITHER(x, acosh)(x)
+#define atanh(x)    LAGRANGIAN__EITHER(x, atanh)(x)
+#define fabs(x)     LAGRANGIAN__EITHER(x, fabs)(x)
+#define pow(x, y)   LAGRANGIAN__EITHER((x) + (y), pow)(x, y)
+#define atan2(y, x) LAGRANGIAN__EITHER((y) + (x), atan2)(y, x)
+#define hypot(x, y) LAGRANGIAN__EITHER((x) + (y), hypot)(x, y)
 
 /* gcc: products and quotients in line, without the rescue of infinite ones (of squares in a quotient, at 1e154) */
 #if defined(__GNUC__) && !defined(__clang__) && GVI__KIND != 1
@@ -166,120 +259,178 @@ LAGRANGIAN__INLINE number lagrangian_pow(number z, number exponent)
 /* One coordinate after the other; z[2n]: q and w. */
 typedef number lagrangian_body(number t, const number *q, const number *w, const void *user);
 
-LAGRANGIAN__INLINE void lagrangian_add(lagrangian_body *F, int n, number *z, const lagrangian_wanted *a)
+LAGRANGIAN__INLINE gvi_real lagrangian_slope_of(number y, const lagrangian_wanted *a, lagrangian_real by)
 {
+    if (a->least > 0 && fabs(cimag(y)) <= a->least*LAGRANGIAN__STEP*fabs(creal(y))) return 0;
+    return (gvi_real)(by*cimag(y));
+}
+
+LAGRANGIAN__INLINE void lagrangian_add(lagrangian_body *F, int n, number *z, const lagrangian_wanted *wanted)
+{
+    const lagrangian_wanted own = *wanted, *a = &own;         // which no output overlaps
     const gvi_points *x = a->x;
     const int from = a->by_q ? 0 : n + a->first, to = a->by_w ? n + a->end : n, R = x->stride;
-    const gvi_real step = LAGRANGIAN__STEP, by = a->scale/step;
+    const lagrangian_real by = a->scale/LAGRANGIAN__STEP;
     for (int k = 0; k < x->count; ++k) {
+        if (lagrangian_rests(a, k)) continue;
         for (int i = 0; i < n; ++i) {
             z[i] = x->q[i*R + k];
-            z[n + i] = a->w ? a->w[i*R + k] : i == a->one;
+            z[n + i] = a->w ? a->times*(lagrangian_real)a->w[i*R + k] : i == a->one ? a->times : 0;
         }
-        int d = from;
-        number L;
+        for (int d = 0; a->along && d < 2*n; ++d)
+            z[d] = lagrangian_number(creal(z[d]), (lagrangian_real)a->along[d]*LAGRANGIAN__STEP);
+        int d = a->along ? to : from;
+        number y;
         do {
-            const gvi_real at = d < to ? creal(z[d]) : 0;
-            if (d < to) z[d] = lagrangian_number(at, step);
-            L = F(x->t[k], z, z + n, a->user);
+            const lagrangian_real at = d < to ? creal(z[d]) : 0;
+            if (d < to) z[d] = lagrangian_number(at, LAGRANGIAN__STEP);
+            y = F(x->t[k], z, z + n, a->user);
             if (d >= to) break;
             z[d] = at;
-            if (d < n) a->by_q[d*R + k] += by*cimag(L);
-            else a->by_w[(d - n)*a->apart + k] += by*cimag(L);
+            if (d < n) a->by_q[d*R + k] += lagrangian_slope_of(y, a, by);
+            else a->by_w[(d - n)*a->apart + k] += lagrangian_slope_of(y, a, by);
         } while (++d < to);
-        if (a->value) a->value[k] += a->scale*creal(L);
+        if (a->along) a->by_along[k] += lagrangian_slope_of(y, a, by);
+        if (a->value) a->value[k] += (gvi_real)(a->scale*creal(y));
     }
 }
 
-#define LAGRANGIAN__FUNCTION(name, n, w)                                                        \
+#define LAGRANGIAN__DECLARE(name, n)                                                            \
     LAGRANGIAN__INLINE number name##_at(number t, const number *q, const number *w, const void *user); \
-    LAGRANGIAN__PLAIN static void name##_add(const lagrangian_wanted *wanted)                  \
+    LAGRANGIAN__PLAIN static void name##_add(const lagrangian_wanted *lagrangian_w)             \
     {                                                                                           \
-        number z[2*(n)];                                                                        \
-        lagrangian_add(name##_at, n, z, wanted);                                                \
-    }                                                                                           \
-    static const lagrangian_function name = { n, name##_add };                                  \
+        number lagrangian_z[2*(n)];                                                             \
+        lagrangian_add(name##_at, n, lagrangian_z, lagrangian_w);                               \
+    }
+#define LAGRANGIAN__BODY(name, w)                                                               \
     LAGRANGIAN__INLINE number name##_at(LAGRANGIAN__UNUSED number t, LAGRANGIAN__UNUSED const number *q, \
                                         LAGRANGIAN__UNUSED const number *w, LAGRANGIAN__UNUSED const void *user)
 
+typedef void lagrangian_rows_body(number t, const number *q, const number *v, number *row, const void *user);
+
+/* z[2n + m]: q, w and the rows */
+static inline void lagrangian_rows_add(lagrangian_rows_body *F, int n, int m, number *z, number time,
+                                            const lagrangian_real *q, const lagrangian_real *w, int by,
+                                            lagrangian_real *values, lagrangian_real *slopes, const void *user)
+{
+    number *row = z + 2*n, *seed = by == LAGRANGIAN__BY_V ? z + n : z;
+    for (int i = 0; i < n; ++i) {
+        z[i] = q[i];
+        z[n + i] = w ? w[i] : 0;
+    }
+    const int to = by == LAGRANGIAN__BY_V ? n : n + 1;
+    for (int d = by ? 0 : n; d < to; ++d) {
+        number *x = d < n ? seed + d : &time;
+        const number at = *x;
+        if (by) *x = lagrangian_number(creal(at), LAGRANGIAN__STEP);
+        for (int a = 0; a < m; ++a) row[a] = 0;
+        F(time, z, z + n, row, user);
+        *x = at;
+        for (int a = 0; a < m; ++a) {
+            values[a] = creal(row[a]);
+            if (by) slopes[a*(n + 1) + d] = cimag(row[a])/LAGRANGIAN__STEP;
+        }
+    }
+}
+
+#define LAGRANGIAN__ROWS(name, n, m)                                                            \
+    static inline void name##_at(number t, const number *q, const number *v, number *row, const void *user); \
+    static void name##_rows(lagrangian_real t, const lagrangian_real *q, const lagrangian_real *v, int lagrangian_by, \
+                            lagrangian_real *row, lagrangian_real *lagrangian_slopes, const void *user) \
+    {                                                                                           \
+        number lagrangian_z[2*(n) + (m)];                                                       \
+        lagrangian_rows_add(name##_at, n, m, lagrangian_z, t, q, v, lagrangian_by, row, lagrangian_slopes, user); \
+    }
+#define LAGRANGIAN__ROWS_BODY(name)                                                             \
+    static inline void name##_at(LAGRANGIAN__UNUSED number t, LAGRANGIAN__UNUSED const number *q, \
+                                      LAGRANGIAN__UNUSED const number *v, number *row,          \
+                                      LAGRANGIAN__UNUSED const void *user)
+
 #else
 #include <cmath>
+enum { LAGRANGIAN__LOSES = 0 };       /* what would lose a derivative does not compile */
 
-/* A value and N derivatives.  A double cannot hold one: what would lose them does not compile. */
+/* A value and N derivatives. */
 template <int N> struct lagrangian_dual {
-    gvi_real x, d[N];
-    lagrangian_dual(gvi_real value = 0) : x(value) { for (int i = 0; i < N; ++i) d[i] = 0; }
+    lagrangian_real value, d[N];
+    lagrangian_dual(lagrangian_real a = 0) : value(a) { for (int i = 0; i < N; ++i) d[i] = 0; }
 
     /* f(a) with slope f'(a); f(a, b) likewise */
-    static lagrangian_dual of(gvi_real value, gvi_real slope, const lagrangian_dual &a)
+    static lagrangian_dual of(lagrangian_real f, lagrangian_real slope, const lagrangian_dual &a)
     {
-        lagrangian_dual y(value);
+        lagrangian_dual y(f);
         for (int i = 0; i < N; ++i) y.d[i] = slope*a.d[i];
         return y;
     }
-    static lagrangian_dual of(gvi_real value, gvi_real slope_a, const lagrangian_dual &a, gvi_real slope_b,
+    static lagrangian_dual of(lagrangian_real f, lagrangian_real slope_a, const lagrangian_dual &a, lagrangian_real slope_b,
                               const lagrangian_dual &b)
     {
-        lagrangian_dual y(value);
+        lagrangian_dual y(f);
         for (int i = 0; i < N; ++i) y.d[i] = slope_a*a.d[i] + slope_b*b.d[i];
         return y;
     }
     typedef lagrangian_dual number;
-    friend number operator-(const number &a) { return of(-a.x, -1, a); }
+    friend number operator-(const number &a) { return of(-a.value, -1, a); }
     friend number operator+(const number &a) { return a; }
-    friend number operator+(const number &a, const number &b) { return of(a.x + b.x, 1, a, 1, b); }
-    friend number operator+(const number &a, gvi_real b) { return of(a.x + b, 1, a); }
-    friend number operator+(gvi_real a, const number &b) { return of(a + b.x, 1, b); }
-    friend number operator-(const number &a, const number &b) { return of(a.x - b.x, 1, a, -1, b); }
-    friend number operator-(const number &a, gvi_real b) { return of(a.x - b, 1, a); }
-    friend number operator-(gvi_real a, const number &b) { return of(a - b.x, -1, b); }
-    friend number operator*(const number &a, const number &b) { return of(a.x*b.x, b.x, a, a.x, b); }
-    friend number operator*(const number &a, gvi_real b) { return of(a.x*b, b, a); }
-    friend number operator*(gvi_real a, const number &b) { return of(a*b.x, a, b); }
+    friend number operator+(const number &a, const number &b) { return of(a.value + b.value, 1, a, 1, b); }
+    friend number operator+(const number &a, lagrangian_real b) { return of(a.value + b, 1, a); }
+    friend number operator+(lagrangian_real a, const number &b) { return of(a + b.value, 1, b); }
+    friend number operator-(const number &a, const number &b) { return of(a.value - b.value, 1, a, -1, b); }
+    friend number operator-(const number &a, lagrangian_real b) { return of(a.value - b, 1, a); }
+    friend number operator-(lagrangian_real a, const number &b) { return of(a - b.value, -1, b); }
+    friend number operator*(const number &a, const number &b) { return of(a.value*b.value, b.value, a, a.value, b); }
+    friend number operator*(const number &a, lagrangian_real b) { return of(a.value*b, b, a); }
+    friend number operator*(lagrangian_real a, const number &b) { return of(a*b.value, a, b); }
     friend number operator/(const number &a, const number &b)
     {
-        const gvi_real r = 1/b.x, y = a.x*r;
+        const lagrangian_real r = 1/b.value, y = a.value*r;
         return of(y, r, a, -y*r, b);
     }
-    friend number operator/(const number &a, gvi_real b) { return of(a.x/b, 1/b, a); }
-    friend number operator/(gvi_real a, const number &b)
+    friend number operator/(const number &a, lagrangian_real b) { return of(a.value/b, 1/b, a); }
+    friend number operator/(lagrangian_real a, const number &b)
     {
-        const gvi_real r = 1/b.x, y = a*r;
+        const lagrangian_real r = 1/b.value, y = a*r;
         return of(y, -y*r, b);
     }
     friend number &operator+=(number &a, const number &b) { return a = a + b; }
     friend number &operator-=(number &a, const number &b) { return a = a - b; }
     friend number &operator*=(number &a, const number &b) { return a = a*b; }
     friend number &operator/=(number &a, const number &b) { return a = a/b; }
-    friend number sqrt(const number &a)
+
+    /* Functions, whose slope may be infinite: where a does not vary, neither does f(a). */
+    int varies() const
     {
-        const gvi_real y = GVI_SQRT(a.x);
-        return of(y, 1/(2*y), a);
+        int any = 0;
+        for (int i = 0; i < N; ++i) any |= !lagrangian_is_zero(d[i]);
+        return any;
     }
-    friend number exp(const number &a)
+    static number steep(lagrangian_real f, lagrangian_real slope, const number &a)
     {
-        const gvi_real y = std::exp(a.x);
-        return of(y, y, a);
+        number y(f);
+        for (int i = 0; i < N; ++i) y.d[i] = lagrangian_is_zero(a.d[i]) ? 0 : slope*a.d[i];
+        return y;
     }
-    friend number log(const number &a) { return of(std::log(a.x), 1/a.x, a); }
-    friend number sin(const number &a) { return of(std::sin(a.x), std::cos(a.x), a); }
-    friend number cos(const number &a) { return of(std::cos(a.x), -std::sin(a.x), a); }
-    friend number tan(const number &a)
-    {
-        const gvi_real y = std::tan(a.x);
-        return of(y, 1 + y*y, a);
+#define LAGRANGIAN__NUMBER(name, f_of_x, slope)                                                 \
+    friend number name(const number &a)                                                         \
+    {                                                                                           \
+        using namespace std;                                                                    \
+        const lagrangian_real x = a.value, y = f_of_x, by_x = slope;                            \
+        return (void)x, by_x - by_x >= 0 ? of(y, by_x, a) : steep(y, by_x, a);                  \
     }
-    friend number fabs(const number &a) { return of(std::fabs(a.x), a.x < 0 ? -1 : 1, a); }
-    friend number pow(const number &a, gvi_real b) { return of(std::pow(a.x, b), b*std::pow(a.x, b - 1), a); }
-    friend number pow(const number &a, const number &b)
-    {
-        const gvi_real y = std::pow(a.x, b.x);
-        return of(y, b.x*std::pow(a.x, b.x - 1), a, y*std::log(a.x), b);
+#define LAGRANGIAN__NUMBERS(name, f_of_xy, slope_x, slope_y)                                    \
+    friend number name(const number &a, const number &b)                                        \
+    {                                                                                           \
+        using namespace std;                                                                    \
+        const lagrangian_real x = a.value, y = b.value, z = f_of_xy;                        \
+        const number f = steep(z, slope_x, a);                                                  \
+        return b.varies() ? f + steep(0, slope_y, b) : f;                                       \
     }
+    LAGRANGIAN__OF_ONE(LAGRANGIAN__NUMBER)
+    LAGRANGIAN__OF_TWO(LAGRANGIAN__NUMBERS)
 };
 
-/* Derivatives in one evaluation: by q at rest, by q, by w, by both; the value in any case. */
-enum { LAGRANGIAN__REST, LAGRANGIAN__Q, LAGRANGIAN__W, LAGRANGIAN__BOTH };
+/* Derivatives in one evaluation: by q at rest, by q, by w, by both, along a direction; the value in any case. */
+enum { LAGRANGIAN__REST, LAGRANGIAN__Q, LAGRANGIAN__W, LAGRANGIAN__BOTH, LAGRANGIAN__ALONG };
 
 /* gcc: loops over derivatives in line, as with -O3 */
 #if defined(__GNUC__) && !defined(__clang__)
@@ -288,95 +439,153 @@ enum { LAGRANGIAN__REST, LAGRANGIAN__Q, LAGRANGIAN__W, LAGRANGIAN__BOTH };
 #define LAGRANGIAN__UNROLLED
 #endif
 
-template <class F, int n, int what> LAGRANGIAN__UNROLLED inline void lagrangian_add(const lagrangian_wanted *a)
+inline gvi_real lagrangian_slope_of(lagrangian_real value, lagrangian_real slope, const lagrangian_wanted *a)
 {
-    enum { by_q = what != LAGRANGIAN__W, by_w = what >= LAGRANGIAN__W, w_at = by_q ? n : 0 };
-    typedef lagrangian_dual<by_q && by_w ? 2*n : n> number;
+    if (a->least > 0 && std::fabs(slope) <= a->least*std::fabs(value)) return 0;
+    return (gvi_real)(a->scale*slope);
+}
+
+template <class F, int n, int what> LAGRANGIAN__UNROLLED inline void lagrangian_add(const lagrangian_wanted *wanted)
+{
+    const lagrangian_wanted own = *wanted, *a = &own;         // which no output overlaps
+    enum { along = what == LAGRANGIAN__ALONG, by_q = what != LAGRANGIAN__W && !along,
+           by_w = what == LAGRANGIAN__W || what == LAGRANGIAN__BOTH, w_at = by_q ? n : 0 };
+    typedef lagrangian_dual<along ? 1 : by_q && by_w ? 2*n : n> number;
     const gvi_points *x = a->x;
     const int R = x->stride;
     for (int k = 0; k < x->count; ++k) {
         number q[n], w[n];
+        if (lagrangian_rests(a, k)) continue;
         for (int i = 0; i < n; ++i) {
-            q[i].x = x->q[i*R + k];
-            if (what != LAGRANGIAN__REST) w[i].x = a->w ? a->w[i*R + k] : i == a->one;
+            q[i].value = (lagrangian_real)x->q[i*R + k];
+            if (what != LAGRANGIAN__REST) w[i].value = a->w ? a->times*(lagrangian_real)a->w[i*R + k] : i == a->one ? a->times : 0;
             if (by_q) q[i].d[i] = 1;
             if (by_w) w[i].d[w_at + i] = 1;
+            if (along && a->along) q[i].d[0] = (lagrangian_real)a->along[i], w[i].d[0] = (lagrangian_real)a->along[n + i];
         }
-        const number L = F().template at<number>(number(x->t[k]), q, w, a->user);
-        for (int i = 0; i < n && by_q && a->by_q; ++i) a->by_q[i*R + k] += a->scale*L.d[i];
-        for (int i = a->first; i < a->end && by_w; ++i) a->by_w[i*a->apart + k] += a->scale*L.d[w_at + i];
-        if (a->value) a->value[k] += a->scale*L.x;
+        const number L = F().template at<number>(number((lagrangian_real)x->t[k]), q, w, a->user);
+        if (along && a->along) a->by_along[k] += lagrangian_slope_of(L.value, L.d[0], a);
+        for (int i = 0; i < n && by_q && a->by_q; ++i) a->by_q[i*R + k] += lagrangian_slope_of(L.value, L.d[i], a);
+        for (int i = a->first; i < a->end && by_w; ++i) a->by_w[i*a->apart + k] += lagrangian_slope_of(L.value, L.d[w_at + i], a);
+        if (a->value) a->value[k] += (gvi_real)(a->scale*L.value);
     }
 }
 
 template <class F, int n> inline void lagrangian_any(const lagrangian_wanted *a)
 {
-    if (a->by_q && a->by_w) lagrangian_add<F, n, LAGRANGIAN__BOTH>(a);
+    if (a->along || !(a->by_q || a->by_w)) lagrangian_add<F, n, LAGRANGIAN__ALONG>(a);
+    else if (a->by_q && a->by_w) lagrangian_add<F, n, LAGRANGIAN__BOTH>(a);
     else if (a->by_w) lagrangian_add<F, n, LAGRANGIAN__W>(a);
     else if (a->w || a->one >= 0) lagrangian_add<F, n, LAGRANGIAN__Q>(a);
     else lagrangian_add<F, n, LAGRANGIAN__REST>(a);
 }
 
-#define LAGRANGIAN__FUNCTION(name, n, w)                                                        \
+#define LAGRANGIAN__DECLARE(name, n)                                                            \
     struct name##_body {                                                                        \
         template <class number> number at(number t, const number *q, const number *w, const void *user) const; \
     };                                                                                          \
-    static void name##_add(const lagrangian_wanted *wanted) { lagrangian_any<name##_body, n>(wanted); } \
-    static const lagrangian_function name = { n, name##_add };                                  \
+    static void name##_add(const lagrangian_wanted *lagrangian_w) { lagrangian_any<name##_body, n>(lagrangian_w); }
+#define LAGRANGIAN__BODY(name, w)                                                               \
     template <class number>                                                                     \
     LAGRANGIAN__UNROLLED LAGRANGIAN__ALWAYS inline number name##_body::at(                      \
         LAGRANGIAN__UNUSED number t, LAGRANGIAN__UNUSED const number *q,                        \
         LAGRANGIAN__UNUSED const number *w, LAGRANGIAN__UNUSED const void *user) const
+
+template <class F, int n, int m>
+inline void lagrangian_rows_add(lagrangian_real t, const lagrangian_real *q, const lagrangian_real *w, int by,
+                                lagrangian_real *values, lagrangian_real *slopes, const void *user)
+{
+    typedef lagrangian_dual<n + 1> number;
+    number z[2*n], row[m], time(t);
+    for (int i = 0; i < n; ++i) {
+        z[i] = q[i];
+        z[n + i] = w ? w[i] : 0;
+        if (by) z[by == LAGRANGIAN__BY_V ? n + i : i].d[i] = 1;
+    }
+    if (by) time.d[n] = 1;
+    F().template at<number>(time, z, z + n, row, user);
+    for (int a = 0; a < m; ++a) {
+        values[a] = row[a].value;
+        for (int d = 0; d <= n && by; ++d) slopes[a*(n + 1) + d] = row[a].d[d];
+    }
+}
+
+#define LAGRANGIAN__ROWS(name, n, m)                                                            \
+    struct name##_body {                                                                        \
+        template <class number> void at(number t, const number *q, const number *v, number *row, const void *user) const; \
+    };                                                                                          \
+    static void name##_rows(lagrangian_real t, const lagrangian_real *q, const lagrangian_real *v, int lagrangian_by, \
+                            lagrangian_real *row, lagrangian_real *lagrangian_slopes, const void *user) \
+    {                                                                                           \
+        lagrangian_rows_add<name##_body, n, m>(t, q, v, lagrangian_by, row, lagrangian_slopes, user); \
+    }
+#define LAGRANGIAN__ROWS_BODY(name)                                                             \
+    template <class number>                                                                     \
+    LAGRANGIAN__ALWAYS inline void name##_body::at(                                             \
+        LAGRANGIAN__UNUSED number t, LAGRANGIAN__UNUSED const number *q,                        \
+        LAGRANGIAN__UNUSED const number *v, number *row, LAGRANGIAN__UNUSED const void *user) const
 #endif
 
+#define LAGRANGIAN__FUNCTION(name, n, w)                                                        \
+    LAGRANGIAN__DECLARE(name, n)                                                                \
+    static const lagrangian_function name = { n, name##_add };                                  \
+    LAGRANGIAN__BODY(name, w)
 #define LAGRANGIAN(name, n) LAGRANGIAN__FUNCTION(name, n, v)
 #define HAMILTONIAN(name, n) LAGRANGIAN__FUNCTION(name, n, p)
 
-/* ------------------------------------------------------------- L at one point */
+#define LAGRANGIAN__ROW(name, n, m, rows)                                                       \
+    LAGRANGIAN__ROWS(name, n, m)                                                                \
+    static int name(const gvi_points *lagrangian_x, void *user)                                 \
+    {                                                                                           \
+        lagrangian_real lagrangian_room[4*(n) + (m)*((n) + 4)];                                 \
+        return rows(name##_rows, n, m, lagrangian_room, lagrangian_x, user);                    \
+    }                                                                                           \
+    LAGRANGIAN__ROWS_BODY(name)
+#define HOLDS(name, n, m) LAGRANGIAN__ROW(name, n, m, lagrangian_holds)
+#define ROLLS(name, n, m) LAGRANGIAN__ROW(name, n, m, lagrangian_rolls)
 
-enum { LAGRANGIAN__KEPT = 16*LAGRANGIAN_MOST };
+#define DISSIPATION(name, n)                                                                    \
+    LAGRANGIAN__DECLARE(name, n)                                                                \
+    static int name(const gvi_points *lagrangian_x, void *user)                                 \
+    {                                                                                           \
+        const lagrangian_function lagrangian_f = { n, name##_add };                             \
+        return lagrangian_dissipates(&lagrangian_f, lagrangian_x, user);                        \
+    }                                                                                           \
+    LAGRANGIAN__BODY(name, v)
 
-typedef enum lagrangian_kind {
-    LAGRANGIAN_REFUSED, LAGRANGIAN_POTENTIAL, LAGRANGIAN_LINEAR, LAGRANGIAN_MASS, LAGRANGIAN_GENERAL
-} lagrangian_kind;
+/* ------------------------------------------------------------- F at one point */
 
-typedef struct lagrangian {
-    lagrangian_kind     kind;
-    lagrangian_function function;
-    const void         *user;
-    gvi_real            M[LAGRANGIAN_MOST*LAGRANGIAN_MOST], diagonal[LAGRANGIAN_MOST];
-    unsigned char       varies[LAGRANGIAN_MOST*LAGRANGIAN_MOST];        /* does M_ij?        */
-    int                 kept;         /* MASS: numbers in q and rest; 0: none   */
-    gvi_real            t, q[LAGRANGIAN__KEPT], rest[LAGRANGIAN__KEPT];  /* dL/dq at v = 0, at these q */
-    char                why[240];
-} lagrangian;
+/* w of this speed: beside what is quadratic in w all else vanishes.  2^240   */
+#define LAGRANGIAN__HUGE ((lagrangian_real)1.7668470647783843e72)
 
-/* Value, and derivatives by q and w where there is room for them, at one point. */
-static inline gvi_real lagrangian_at(const lagrangian_function *f, const void *user, gvi_real t, const gvi_real *q,
-                                     const gvi_real *w, gvi_real *by_q, gvi_real *by_w)
+static inline gvi_real lagrangian_eps(void)
 {
-    const int n = f->n;
-    gvi_real value = 0;
-    gvi_points x;
-    lagrangian_wanted a;
-    memset(&x, 0, sizeof x);
-    memset(&a, 0, sizeof a);
-    x.n = a.end = n;
-    x.count = x.stride = a.apart = 1;
-    x.t = &t;
-    x.q = q;
-    a.x = &x;
-    a.w = w;
-    a.one = -1;
-    a.scale = 1;
-    a.value = &value;
-    a.by_q = by_q;
-    a.by_w = by_w;
-    a.user = user;
-    for (int i = 0; i < n && by_q; ++i) by_q[i] = 0;
-    for (int i = 0; i < n && by_w; ++i) by_w[i] = 0;
-    f->add(&a);
-    return value;
+    return sizeof(gvi_real) == sizeof(float) ? (gvi_real)FLT_EPSILON
+         : sizeof(gvi_real) == sizeof(double) ? (gvi_real)DBL_EPSILON : (gvi_real)LDBL_EPSILON;
+}
+
+/* Smaller derivatives underflow: in C because of the step, in float beside values */
+static inline gvi_real lagrangian_smallest(void)
+{
+    return sizeof(gvi_real) == sizeof(float) ? (gvi_real)(FLT_MIN/FLT_EPSILON)
+                                             : (gvi_real)(DBL_MIN/DBL_EPSILON*8.75e99);      // 2^332
+}
+
+static inline gvi_real lagrangian_size(gvi_real x) { return x < 0 ? -x : x; }
+
+static inline gvi_real lagrangian_largest(int count, const gvi_real *x)
+{
+    gvi_real most = 0;
+    for (int i = 0; i < count; ++i)
+        if (lagrangian_size(x[i]) > most) most = lagrangian_size(x[i]);
+    return most;
+}
+
+/* A size of x_i: its own, or that of others, or 1 */
+static inline gvi_real lagrangian_scale(int count, const gvi_real *x, int i)
+{
+    const gvi_real own = lagrangian_size(x[i]), most = lagrangian_largest(count, x);
+    return own > 0 ? own : most > 0 ? most : 1;
 }
 
 static inline int lagrangian_finite(int count, const gvi_real *x)
@@ -386,58 +595,343 @@ static inline int lagrangian_finite(int count, const gvi_real *x)
     return 1;
 }
 
-static inline gvi_real lagrangian_abs_of(gvi_real x) { return x < 0 ? -x : x; }
-
-static inline gvi_real lagrangian_largest(int count, const gvi_real *x)
-{
-    gvi_real most = 0;
-    for (int i = 0; i < count; ++i)
-        if (lagrangian_abs_of(x[i]) > most) most = lagrangian_abs_of(x[i]);
-    return most;
-}
-
-static inline gvi_real lagrangian_eps(void)
-{
-    return sizeof(gvi_real) == sizeof(float) ? (gvi_real)FLT_EPSILON
-         : sizeof(gvi_real) == sizeof(double) ? (gvi_real)DBL_EPSILON : (gvi_real)LDBL_EPSILON;
-}
-
-/* The same numbers on every machine, in (-1, 1). */
+/* The same numbers on every machine, in (-1, 1) */
 static inline gvi_real lagrangian_random(unsigned *seed)
 {
     *seed = *seed*1664525u + 1013904223u;
     return (gvi_real)((double)(*seed >> 8 & 0xFFFFFF)/8388608.0 - 1);
 }
 
-/* dL/dx by central differences, x one of the numbers of q or w, left as it was.  Richardson's
-   extrapolation of 20 widths, each half the one before; the entry where neighbours agree best. */
-static inline gvi_real lagrangian_difference(const lagrangian_function *f, const void *user, gvi_real t, const gvi_real *q,
-                                             const gvi_real *w, gvi_real *x, gvi_real size, gvi_real *error)
+/* A power of 2 from 2^-most to 2^most */
+static inline gvi_real lagrangian_decade(unsigned *seed, int most)
 {
-    gvi_real best = 0, width = size/8, row[2] = { 0, 0 };
-    const gvi_real was = *x;
+    const int k = (int)((double)lagrangian_random(seed)*(most + 1));
+    gvi_real x = 1;
+    for (int i = 0; i < k; ++i) x *= 2;
+    for (int i = 0; i > k; --i) x /= 2;
+    return x;
+}
+
+static inline gvi_points lagrangian_point(int n, const gvi_real *t, const gvi_real *q)
+{
+    gvi_points x;
+    memset(&x, 0, sizeof x);
+    x.n = n;
+    x.count = x.stride = 1;
+    x.t = t;
+    x.q = q;
+    return x;
+}
+
+/* Nothing yet, of F at w, or with w NULL at rest */
+static inline lagrangian_wanted lagrangian_want(const void *user, const gvi_points *x, const gvi_real *w, lagrangian_real scale)
+{
+    lagrangian_wanted a;
+    memset(&a, 0, sizeof a);
+    a.x = x;
+    a.w = w;
+    a.one = -1;
+    a.times = 1;
+    a.scale = scale;
+    a.end = x->n;
+    a.apart = x->stride;
+    a.user = user;
+    return a;
+}
+
+/* What is quadratic in w alone: F(huge w)/huge^2, and of its derivatives by q what is not left of the others */
+static inline lagrangian_wanted lagrangian_want_quadratic(const void *user, const gvi_points *x, const gvi_real *w, lagrangian_real sign)
+{
+    lagrangian_wanted a = lagrangian_want(user, x, w, 1);
+    a.times = LAGRANGIAN__HUGE;
+    a.scale = sign/LAGRANGIAN__HUGE/LAGRANGIAN__HUGE;
+    a.least = 1/LAGRANGIAN__HUGE;
+    return a;
+}
+
+/* Value, and derivatives by q and w where there is room for them, at one point */
+static inline gvi_real lagrangian_at(const lagrangian_function *F, const void *user, gvi_real t, const gvi_real *q,
+                                     const gvi_real *w, gvi_real *by_q, gvi_real *by_w)
+{
+    const gvi_points x = lagrangian_point(F->n, &t, q);
+    lagrangian_wanted a = lagrangian_want(user, &x, w, 1);
+    gvi_real value = 0;
+    a.value = &value;
+    a.by_q = by_q;
+    a.by_w = by_w;
+    for (int i = 0; i < F->n && by_q; ++i) by_q[i] = 0;
+    for (int i = 0; i < F->n && by_w; ++i) by_w[i] = 0;
+    F->add(&a);
+    return value;
+}
+
+/* The derivative in a direction [2n] at q and `times` w, over `times` */
+static inline gvi_real lagrangian_along(const lagrangian_function *F, const void *user, gvi_real t, const gvi_real *q,
+                                        const gvi_real *w, lagrangian_real times, const gvi_real *direction)
+{
+    const gvi_points x = lagrangian_point(F->n, &t, q);
+    lagrangian_wanted a = lagrangian_want(user, &x, w, 1);
+    gvi_real slope = 0;
+    a.times = times;
+    a.scale = 1/times;
+    a.along = direction;
+    a.by_along = &slope;
+    F->add(&a);
+    return slope;
+}
+
+/* ... by number d of q and w */
+static inline gvi_real lagrangian_slope(const lagrangian_function *F, const void *user, gvi_real t, const gvi_real *q,
+                                        const gvi_real *w, lagrangian_real times, int d)
+{
+    gvi_real direction[2*LAGRANGIAN_MOST] = { 0 };
+    direction[d] = 1;
+    return lagrangian_along(F, user, t, q, w, times, direction);
+}
+
+/* ----------------------------------------------------------------- differences */
+
+typedef gvi_real lagrangian_curve(const void *of, gvi_real s);
+
+/* Nine places, at uneven distances: on a lattice rounding may look smooth. */
+static const double lagrangian_places[9] = { -4, -2.87, -2.21, -0.92, 0.29, 0.83, 2.05, 2.7, 4.2 };
+
+/* The largest fourth difference of the values there: where these are close together, rounding and noise */
+static inline gvi_real lagrangian_noise(const gvi_real *y)
+{
+    gvi_real most = 0;
+    for (int k = 0; k < 5; ++k) {
+        gvi_real sum = 0;
+        for (int i = k; i < k + 5; ++i) {
+            double weight = 24;
+            for (int j = k; j < k + 5; ++j)
+                if (j != i) weight /= lagrangian_places[i] - lagrangian_places[j];
+            sum += (gvi_real)weight*y[i];
+        }
+        if (lagrangian_size(sum) > most) most = lagrangian_size(sum);
+    }
+    return most;
+}
+
+/* df/ds at 0, from central differences, each of half the width of the one before, by one of Richardson's
+   extrapolations: the one that agrees best with the two before it, unless a narrower one contradicts it.
+   rounding: of f because of that of its arguments.  error < 0: there are none. */
+static inline gvi_real lagrangian_difference(lagrangian_curve *f, const void *of, gvi_real size, gvi_real rounding, gvi_real *error)
+{
+    const gvi_real apart = GVI_SQRT(lagrangian_eps())/16*size;
+    gvi_real near_by[9], best = 0, width = size/8, row[2] = { 0, 0 }, before = 0;
     int rows = 0;
+    for (int k = 0; k < 9; ++k) near_by[k] = f(of, (gvi_real)lagrangian_places[k]*apart);
+    const gvi_real noise = lagrangian_noise(near_by), grain = rounding + (lagrangian_finite(1, &noise) ? noise : 0);
+
     *error = -1;
-    for (int k = 0; k < 20; ++k, width /= 2) {
-        *x = was + width;
-        const gvi_real up = *x, at_up = lagrangian_at(f, user, t, q, w, NULL, NULL);
-        *x = was - width;
-        const gvi_real first = (at_up - lagrangian_at(f, user, t, q, w, NULL, NULL))/(up - *x),
-                       rounding = 4*lagrangian_eps()*lagrangian_abs_of(at_up)/width;
-        *x = was;
+    for (int k = 0; k < 40; ++k, width /= 2) {
+        const gvi_real up = f(of, width), down = f(of, -width), first = (up - down)/(2*width),
+                       rough = (4*lagrangian_eps()*lagrangian_size(up) + grain)/width;
         if (!lagrangian_finite(1, &first)) continue;
-        const gvi_real second = first + (first - row[0])/3, off = rounding + lagrangian_abs_of(second - row[1]);
-        if (rows++ > 1 && (*error < 0 || off < *error)) {
+        const gvi_real second = first + (first - row[0])/3, change = lagrangian_size(second - row[1]),
+                       off = rough + (change > before ? change : before);
+        const int contradicts = lagrangian_size(second - best) > 4*(*error + off);
+        if (rows++ > 2 && (*error < 0 || off < *error || contradicts)) {
             best = second;
             *error = off;
         }
+        before = change;
         row[0] = first;
         row[1] = second;
     }
     return best;
 }
 
+/* F, or its derivative by w_p, at (q, w) + s times a direction */
+struct lagrangian__line {
+    const lagrangian_function *F;
+    const void                *user;
+    gvi_real                   t;
+    const gvi_real            *q, *w, *direction;
+    int                        p;     /* -1: F                                  */
+};
+
+static inline gvi_real lagrangian_on_line(const void *of, gvi_real s)
+{
+    const struct lagrangian__line *l = (const struct lagrangian__line *)of;
+    const int n = l->F->n;
+    gvi_real q[LAGRANGIAN_MOST], w[LAGRANGIAN_MOST];
+    for (int i = 0; i < n; ++i) {
+        q[i] = l->q[i] + s*l->direction[i];
+        w[i] = l->w[i] + s*l->direction[n + i];
+    }
+    if (l->p < 0) return lagrangian_at(l->F, l->user, l->t, q, w, NULL, NULL);
+    return lagrangian_slope(l->F, l->user, l->t, q, w, 1, n + l->p);
+}
+
+/* A derivative by numbers against one by differences that is right up to `error`: by chance two widths may agree
+   to several digits, so that what is less than 1/4096 of the whole counts as right. */
+static inline int lagrangian_apart(gvi_real by_numbers, gvi_real right, gvi_real error)
+{
+    const gvi_real bound = 8*error + lagrangian_size(right)/4096 + lagrangian_smallest();
+    return error >= 0 && lagrangian_size(by_numbers - right) > bound;
+}
+
+/* At first glance: one difference.  It is off where f bends as well; then lagrangian_difference has to be asked. */
+static inline int lagrangian_seems_apart(lagrangian_curve *f, const void *of, gvi_real by_numbers)
+{
+    const gvi_real width = (gvi_real)(1/64.0), up = f(of, width), down = f(of, -width), D = (up - down)/(2*width);
+    return lagrangian_size(D - by_numbers) > (lagrangian_size(D) + lagrangian_size(by_numbers))/1024
+                                             + 16*lagrangian_eps()*(lagrangian_size(up) + lagrangian_size(down))/width;
+}
+
+
+/* Does the derivative along the line differ from differences? */
+static inline int lagrangian_loses_on(const struct lagrangian__line *l)
+{
+    const int n = l->F->n;
+    const gvi_real slope = lagrangian_along(l->F, l->user, l->t, l->q, l->w, 1, l->direction);
+    gvi_real g[2*LAGRANGIAN_MOST], rounding = 0, error;
+    if (!lagrangian_seems_apart(lagrangian_on_line, l, slope)) return 0;
+    lagrangian_at(l->F, l->user, l->t, l->q, l->w, g, g + n);
+    for (int d = 0; d < 2*n; ++d) rounding += lagrangian_size(g[d]*(d < n ? l->q[d] : l->w[d - n]));
+    const gvi_real right = lagrangian_difference(lagrangian_on_line, l, 1, lagrangian_eps()*rounding, &error);
+    return lagrangian_apart(slope, right, error);
+}
+
+/* ------------------------------------------------------------------------ rows */
+
+/* Row a at the first point and s times the way to the second */
+struct lagrangian__row {
+    lagrangian_rows       *rows;
+    int                    n, a;
+    lagrangian_real        t, dt, *q, *dq, *at, *values;
+    const void            *user;
+};
+
+static inline gvi_real lagrangian_on_row(const void *of, gvi_real s)
+{
+    const struct lagrangian__row *r = (const struct lagrangian__row *)of;
+    for (int i = 0; i < r->n; ++i) r->at[i] = r->q[i] + (lagrangian_real)s*r->dq[i];
+    r->rows(r->t + (lagrangian_real)s*r->dt, r->at, NULL, LAGRANGIAN__VALUES, r->values, NULL, r->user);
+    return (gvi_real)r->values[r->a];
+}
+
+static inline int lagrangian_row_has_lost(struct lagrangian__row *r, int m, const gvi_points *x)
+{
+    const int n = r->n, R = x->stride;
+    r->t = (lagrangian_real)x->t[0];
+    r->dt = (lagrangian_real)x->t[1] - r->t;
+    for (int i = 0; i < n; ++i) {
+        r->q[i] = (lagrangian_real)x->q[i*R];
+        r->dq[i] = (lagrangian_real)x->q[i*R + 1] - r->q[i];
+    }
+    for (r->a = 0; r->a < m; ++r->a) {
+        const gvi_real rate = x->rate[r->a*R];
+        gvi_real slope = rate*(gvi_real)r->dt, rounding = lagrangian_size(rate*x->t[0]), error;
+        for (int i = 0; i < n; ++i) {
+            const gvi_real G = x->jacobian[(r->a*n + i)*R];
+            slope += G*(gvi_real)r->dq[i];
+            rounding += lagrangian_size(G*x->q[i*R]);
+        }
+        if (!lagrangian_seems_apart(lagrangian_on_row, r, slope)) continue;
+        const gvi_real right = lagrangian_difference(lagrangian_on_row, r, 1, lagrangian_eps()*rounding, &error);
+        if (lagrangian_apart(slope, right, error)) return 1;
+    }
+    return 0;
+}
+
+/* g(t,q), dg/dq and dg/dt */
+static inline int lagrangian_holds(lagrangian_rows *rows, int n, int m, lagrangian_real *room, const gvi_points *x, void *user)
+{
+    lagrangian_real *q = room, *values = room + 4*n, *slopes = values + 3*m;
+    struct lagrangian__row r = { rows, n, 0, 0, 0, q, q + n, q + 2*n, values, user };
+    if (x->n != n || !x->g) return gvi_fail(x, "HOLDS is of another n than the scene, or .kind is not GVI_CONSTRAINT");
+    for (int k = 0; k < x->count; ++k) {
+        for (int i = 0; i < n; ++i) q[i] = (lagrangian_real)x->q[i*x->stride + k];
+        rows((lagrangian_real)x->t[k], q, NULL, LAGRANGIAN__BY_Q, values, slopes, user);
+        for (int a = 0; a < m; ++a) {
+            x->g[a*x->stride + k] = (gvi_real)values[a];
+            x->rate[a*x->stride + k] = (gvi_real)slopes[a*(n + 1) + n];
+            for (int i = 0; i < n; ++i) x->jacobian[(a*n + i)*x->stride + k] = (gvi_real)slopes[a*(n + 1) + i];
+        }
+    }
+    if (LAGRANGIAN__LOSES && x->count >= 4 && lagrangian_row_has_lost(&r, m, x))
+        return gvi_fail(x, "a row of HOLDS has lost a derivative: is a variable in it a double that has to be a number?");
+    return 0;
+}
+
+/* A(t,q) and a(t,q) of the row A v + a, which has to be that at a huge v, too */
+static inline int lagrangian_rolls(lagrangian_rows *rows, int n, int m, lagrangian_real *room, const gvi_points *x, void *user)
+{
+    lagrangian_real *q = room, *w = q + n, *values = room + 4*n, *slopes = values + 3*m;
+    int wrong = 0;
+    if (x->n != n || !x->jacobian) return gvi_fail(x, "ROLLS is of another n than the scene, or .kind is not GVI_NONHOLONOMIC");
+    for (int i = 0; i < n; ++i) w[i] = LAGRANGIAN__HUGE*(1 + (lagrangian_real)((i*5)%7)/8);
+    for (int k = 0; k < x->count; ++k) {
+        for (int i = 0; i < n; ++i) q[i] = (lagrangian_real)x->q[i*x->stride + k];
+        rows((lagrangian_real)x->t[k], q, NULL, LAGRANGIAN__BY_V, values, slopes, user);
+        for (int a = 0; a < m; ++a) x->rate[a*x->stride + k] = (gvi_real)values[a];
+        rows((lagrangian_real)x->t[k], q, w, LAGRANGIAN__VALUES, values, NULL, user);
+        for (int a = 0; a < m; ++a) {
+            lagrangian_real off = values[a]/LAGRANGIAN__HUGE, size = 0;
+            for (int i = 0; i < n; ++i) {
+                const lagrangian_real A = slopes[a*(n + 1) + i], part = A*(w[i]/LAGRANGIAN__HUGE);
+                x->jacobian[(a*n + i)*x->stride + k] = (gvi_real)A;
+                off -= part;
+                size += part < 0 ? -part : part;
+            }
+            wrong |= (off < 0 ? -off : off) > (lagrangian_real)GVI_SQRT(lagrangian_eps())*size;
+        }
+    }
+    if (!wrong) return 0;
+    return gvi_fail(x, "a row of ROLLS is not linear in v, or has lost a derivative: is a variable in it a double that has to "
+                       "be a number?");
+}
+
+/* f -= dF/dv */
+static inline int lagrangian_dissipates(const lagrangian_function *F, const gvi_points *x, void *user)
+{
+    const int n = F->n, R = x->stride;
+    gvi_real q[LAGRANGIAN_MOST], w[LAGRANGIAN_MOST], direction[2*LAGRANGIAN_MOST] = { 0 };
+    if (x->n != n || n > LAGRANGIAN_MOST || !x->v)
+        return gvi_fail(x, "DISSIPATION is of another n than the scene, above LAGRANGIAN_MOST, or .kind is not GVI_FORCE");
+    lagrangian_wanted a = lagrangian_want(user, x, x->v, -1);
+    a.by_w = x->f;
+    F->add(&a);
+
+    if (!LAGRANGIAN__LOSES || x->count < 4) return 0;
+    for (int i = 0; i < n; ++i) {
+        q[i] = x->q[i*R];
+        direction[n + i] = w[i] = x->v[i*R];
+    }
+    const struct lagrangian__line line = { F, user, x->t[0], q, w, direction, -1 };
+    if (!lagrangian_loses_on(&line)) return 0;
+    return gvi_fail(x, "DISSIPATION has lost a derivative: is a variable in it a double that has to be a number?");
+}
+
 /* ----------------------------------------------------------- what kind is it? */
+
+/* Which have a term linear in v: even ones; a mass that varies: those from MASS on.  GENERAL has all. */
+typedef enum lagrangian_kind {
+    LAGRANGIAN_REFUSED, LAGRANGIAN_POTENTIAL, LAGRANGIAN_LINEAR, LAGRANGIAN_MASS, LAGRANGIAN_MASS_LINEAR,
+    LAGRANGIAN_GENERAL
+} lagrangian_kind;
+enum { LAGRANGIAN__TERM = 1, LAGRANGIAN__MASS_VARIES = 2, LAGRANGIAN__MATRIX = LAGRANGIAN_MOST*LAGRANGIAN_MOST };
+
+static inline int lagrangian_has(lagrangian_kind kind, int what) { return (((int)kind - 1) & what) != 0; }
+
+typedef struct lagrangian {
+    lagrangian_kind     kind, found;  /* kind may be set, after lagrangian_init */
+    lagrangian_function function;
+    const void         *user;
+    const char         *name, *of;    /* L and v, H and p                       */
+    gvi_real            M[LAGRANGIAN__MATRIX], diagonal[LAGRANGIAN_MOST];   /* M at the start */
+    unsigned char       varies[LAGRANGIAN__MATRIX];         /* does M_ij?       */
+    int                 reads_q;      /* was any dL/dq seen that is not 0?      */
+    /* the watch */
+    int                 points;       /* since the last look                    */
+    int                 looks, alert; /* alert: calls in which all points are looked at */
+    gvi_real            grain[LAGRANGIAN_MOST];             /* of dL/dv_i: rounding that was seen */
+    gvi_real            t, q[LAGRANGIAN_MOST], v[LAGRANGIAN_MOST];  /* of the last look */
+    char                why[400];
+} lagrangian;
 
 static inline const char *lagrangian_refuse(lagrangian *L, const char *text, const char *name, const char *of, int i)
 {
@@ -447,32 +941,30 @@ static inline const char *lagrangian_refuse(lagrangian *L, const char *text, con
 }
 
 /* Are the derivatives at (q, w) those that differences show?                   */
-static inline const char *lagrangian_compare(lagrangian *L, gvi_real t, gvi_real *q, gvi_real *w, const char *name,
-                                             const char *of)
+static inline const char *lagrangian_compare(lagrangian *L, gvi_real t, const gvi_real *q, const gvi_real *w)
 {
     const int n = L->function.n;
-    const gvi_real eps = lagrangian_eps();
     gvi_real g[2*LAGRANGIAN_MOST];
     lagrangian_at(&L->function, L->user, t, q, w, g, g + n);
     if (!lagrangian_finite(2*n, g)) return NULL;
     for (int d = 0; d < 2*n; ++d) {
-        gvi_real *z = d < n ? q : w, most = lagrangian_largest(n, z), error, size = lagrangian_abs_of(z[d%n]);
-        if (most <= 0) most = size = 1;
-        if (size < most/1000) size = most/1000;
-        const gvi_real right = lagrangian_difference(&L->function, L->user, t, q, w, z + d%n, size, &error);
-        const gvi_real bound = 20*error + GVI_SQRT(eps)/16*lagrangian_abs_of(right) + 64*eps*lagrangian_largest(2*n, g);
-        if (error < 0 || lagrangian_abs_of(g[d] - right) <= bound) continue;
+        const gvi_real *z = d < n ? q : w;
+        const gvi_real size = lagrangian_scale(n, z, d%n);
+        gvi_real direction[2*LAGRANGIAN_MOST] = { 0 }, error;
+        direction[d] = 1;
+        const struct lagrangian__line line = { &L->function, L->user, t, q, w, direction, -1 };
+        const gvi_real right = lagrangian_difference(lagrangian_on_line, &line, size, 0, &error);
+        if (!lagrangian_apart(g[d], right, error + 4*lagrangian_eps()*lagrangian_largest(2*n, g))) continue;
         snprintf(L->why, sizeof L->why,
                  "d%s/d%s[%d] is %.6g by numbers, %.6g by differences: is a variable in %s a double that has to be a number?",
-                 name, d < n ? "q" : of, d%n, (double)g[d], (double)right, name);
-        L->kind = LAGRANGIAN_REFUSED;
+                 L->name, d < n ? "q" : L->of, d%n, (double)g[d], (double)right, L->name);
         return L->why;
     }
     return NULL;
 }
 
 /* What L(t,q,v) and H(t,q,p) have to be: of a size there is room for, finite with its derivatives at the start,
-   and with derivatives that are right, there and at two states near it.      */
+   and with derivatives that are right, there and at two states near it. */
 static inline const char *lagrangian_begin(lagrangian *L, lagrangian_function function, const void *user, gvi_real t,
                                            const gvi_real *q, const gvi_real *w, const char *name, const char *of)
 {
@@ -482,6 +974,8 @@ static inline const char *lagrangian_begin(lagrangian *L, lagrangian_function fu
     memset(L, 0, sizeof *L);
     L->function = function;
     L->user = user;
+    L->name = name;
+    L->of = of;
     if (n < 1 || n > LAGRANGIAN_MOST) {
         snprintf(L->why, sizeof L->why, "n is %d, there is room for %d: define LAGRANGIAN_MOST before lagrangian.h", n,
                  LAGRANGIAN_MOST);
@@ -489,235 +983,480 @@ static inline const char *lagrangian_begin(lagrangian *L, lagrangian_function fu
     }
     if (!q || !w || !lagrangian_finite(n, q) || !lagrangian_finite(n, w) || !lagrangian_finite(1, &t))
         return lagrangian_refuse(L, "the start is NULL or not finite: t, q, %s%s", of, "", 0);
-    gvi_real value = lagrangian_at(&function, user, t, q, w, g, g + n);
+
+    const gvi_real value = lagrangian_at(&function, user, t, q, w, g, g + n);
     if (!lagrangian_finite(1, &value)) return lagrangian_refuse(L, "%s is not finite at the start", name, of, 0);
     for (int i = 0; i < 2*n; ++i)
         if (!lagrangian_finite(1, g + i))
             return lagrangian_refuse(L, "d%s/d%s[%d] is not finite at the start", name, i < n ? "q" : of, i%n);
+
     for (int sample = 0; sample < 3; ++sample) {
-        const gvi_real reach = (gvi_real)(sample ? 0.05 : 0);
+        const gvi_real reach = sample ? 8*GVI_SQRT(GVI_SQRT(lagrangian_eps())) : 0;
         for (int d = 0; d < 2*n; ++d) {
-            const gvi_real *z = d < n ? q : w, size = lagrangian_largest(n, z);
-            at[d] = z[d%n] + reach*(size > 0 ? size : 1)*lagrangian_random(&seed);
+            const gvi_real *z = d < n ? q : w;
+            at[d] = z[d%n] + reach*lagrangian_scale(n, z, d%n)*lagrangian_random(&seed);
         }
-        if (lagrangian_compare(L, t + reach, at, at + n, name, of)) return L->why;
+        if (!lagrangian_compare(L, t + reach, at, at + n)) continue;
+        L->kind = LAGRANGIAN_REFUSED;
+        return L->why;
     }
     return NULL;
 }
 
-/* H [n*n]: d2L/dw2 at (q, w), from dL/dw at w_j - d and w_j + d; and how far rounding may be off. */
-static inline void lagrangian_hessian(const lagrangian *L, gvi_real t, const gvi_real *q, gvi_real *w, gvi_real d, gvi_real *H,
-                                      gvi_real *rounding)
+/* Differences that are 0 if L is of a kind, each with the size of what it is the difference of:
+     A      dL/dv_i at v = 0
+     ENTRY  M_ij at (t,q), less that at the start
+     REST   dL/dv_i at v, less M_i v, where M_ij may vary only if the kind says so, and less dL/dv_i at v = 0 */
+enum { LAGRANGIAN__A, LAGRANGIAN__ENTRY, LAGRANGIAN__REST_OF_P };
+struct lagrangian__test { int what, i, j; lagrangian_kind kind; int all; };    // all: any M_ij may vary, if one may
+
+static inline gvi_real lagrangian_entry(const lagrangian *L, gvi_real t, const gvi_real *q, int i, int j)
 {
-    const int n = L->function.n;
-    gvi_real down[LAGRANGIAN_MOST], up[LAGRANGIAN_MOST];
+    gvi_real one[LAGRANGIAN_MOST] = { 0 };
+    one[j] = 1;
+    return lagrangian_slope(&L->function, L->user, t, q, one, LAGRANGIAN__HUGE, L->function.n + i);
+}
+
+static inline gvi_real lagrangian_momentum(const lagrangian *L, gvi_real t, const gvi_real *q, const gvi_real *v,
+                                           lagrangian_real times, int i)
+{
+    return lagrangian_slope(&L->function, L->user, t, q, v, times, L->function.n + i);
+}
+
+static inline gvi_real lagrangian_rest_of_p(const lagrangian *L, const struct lagrangian__test *test, gvi_real t,
+                                            const gvi_real *q, const gvi_real *v, gvi_real *size)
+{
+    const int n = L->function.n, i = test->i;
+    gvi_real p = lagrangian_momentum(L, t, q, v, 1, i),
+             a = lagrangian_has(test->kind, LAGRANGIAN__TERM) ? lagrangian_momentum(L, t, q, NULL, 1, i) : 0;
+    if (p <= a && p >= a) {                        // so slow a v that nothing is left of it beside a: at a huge one
+        p = lagrangian_momentum(L, t, q, v, LAGRANGIAN__HUGE, i);
+        a = (gvi_real)((lagrangian_real)a/LAGRANGIAN__HUGE);
+    }
+    gvi_real off = p - a;
+    *size = lagrangian_size(p) + lagrangian_size(a);
     for (int j = 0; j < n; ++j) {
-        const gvi_real was = w[j];
-        w[j] = was - d;
-        const gvi_real from = w[j];
-        lagrangian_at(&L->function, L->user, t, q, w, NULL, down);
-        w[j] = was + d;
-        const gvi_real width = w[j] - from;
-        lagrangian_at(&L->function, L->user, t, q, w, NULL, up);
-        w[j] = was;
-        for (int i = 0; i < n; ++i) {
-            H[i*n + j] = (up[i] - down[i])/width;
-            rounding[i*n + j] = 2048*lagrangian_eps()*(lagrangian_abs_of(up[i]) + lagrangian_abs_of(down[i]))/width;
-        }
+        const int varies = lagrangian_has(test->kind, LAGRANGIAN__MASS_VARIES) && (test->all || L->varies[i*n + j]);
+        const gvi_real part = (varies ? lagrangian_entry(L, t, q, i, j) : L->M[i*n + j])*v[j];
+        off -= part;
+        *size += lagrangian_size(part);
     }
+    return off;
 }
 
-enum { LAGRANGIAN__MATRIX = LAGRANGIAN_MOST*LAGRANGIAN_MOST };
+static inline gvi_real lagrangian_off(const lagrangian *L, const struct lagrangian__test *test, gvi_real t, const gvi_real *q,
+                                      const gvi_real *v, gvi_real *size)
+{
+    const int n = L->function.n, i = test->i, j = test->j;
+    *size = 0;
+    if (test->what == LAGRANGIAN__A) return lagrangian_momentum(L, t, q, NULL, 1, i);
+    if (test->what == LAGRANGIAN__REST_OF_P) return lagrangian_rest_of_p(L, test, t, q, v, size);
+    const gvi_real a = lagrangian_momentum(L, t, q, NULL, 1, i), was = L->M[i*n + j],     // where there is no mass, a is all
+                   M = lagrangian_entry(L, t, q, i, j) - (gvi_real)((lagrangian_real)a/LAGRANGIAN__HUGE);
+    *size = lagrangian_size(M) + lagrangian_size(was)
+          + 4*GVI_SQRT(lagrangian_size(L->M[i*n + i]))*GVI_SQRT(lagrangian_size(L->M[j*n + j]));
+    return M - was;
+}
 
-/* What is known of L after some states; L->M is M at the start, by v around 0, here d2L/dv2 at the start itself. */
-struct lagrangian__found { gvi_real here[LAGRANGIAN__MATRIX]; int quadratic, constant, linear; };
+/* Is it more than rounding?  Rounding comes and goes as q changes in its last digits, and v by up to a half, where a
+   difference keeps its sign and changes smoothly.  What is rounding is left in *grain. */
+static inline int lagrangian_differs(const lagrangian *L, const struct lagrangian__test *test, gvi_real t, const gvi_real *q,
+                                     const gvi_real *v, gvi_real *grain)
+{
+    const gvi_real eps = lagrangian_eps(), was = grain ? *grain : 0;
+    gvi_real off[9], x[LAGRANGIAN_MOST], w[LAGRANGIAN_MOST], size, rough;
+    unsigned seed = 3;
+    int up = 0, down = 0;
+    off[0] = lagrangian_off(L, test, t, q, v, &size);
+    if (!lagrangian_finite(1, off)) return 1;
+    if (lagrangian_size(off[0]) <= 64*eps*size + was + lagrangian_smallest()) return 0;
 
-/* One more state.  Nothing is learned where L is not finite.  Each entry counts by its own size: masses may
-   differ by any factor.                                                       */
-static inline int lagrangian_learn(lagrangian *L, struct lagrangian__found *found, gvi_real t, const gvi_real *q, gvi_real *w,
-                                   gvi_real speed, int first)
+    for (int s = 0; s < 9; ++s) {
+        for (int k = 0; k < L->function.n; ++k) {
+            x[k] = q[k]*(1 + 8*eps*lagrangian_random(&seed));
+            w[k] = v ? v[k]*(1 + (gvi_real)lagrangian_places[s]/8) : 0;
+        }
+        off[s] = lagrangian_off(L, test, t*(1 + 8*eps*lagrangian_random(&seed)), x, w, &rough);
+        if (!lagrangian_finite(1, off + s)) return 1;
+        up += off[s] > 0;
+        down += off[s] < 0;
+    }
+    const gvi_real most = lagrangian_largest(9, off);
+    if ((up == 9 || down == 9) && most > 2*lagrangian_noise(off) + 64*eps*size + was) return 1;
+    if (grain && 2*most > was) *grain = 2*most;
+    return 0;
+}
+
+/* d2L/dv2 [n*n] at the start of an L of no special kind; returns how far off it may be, by its own size. */
+static inline gvi_real lagrangian_hessian(const lagrangian *L, gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *H)
 {
     const int n = L->function.n;
-    gvi_real zero[LAGRANGIAN_MOST], a[LAGRANGIAN_MOST], M[LAGRANGIAN__MATRIX], H[LAGRANGIAN__MATRIX],
-             of_M[LAGRANGIAN__MATRIX], of_H[LAGRANGIAN__MATRIX];          /* rounding */
-    for (int i = 0; i < n; ++i) zero[i] = 0;
-    lagrangian_at(&L->function, L->user, t, q, zero, NULL, a);
-    lagrangian_hessian(L, t, q, zero, speed, M, of_M);
-    lagrangian_hessian(L, t, q, w, speed/4, H, of_H);
-    if (!lagrangian_finite(n, a) || !lagrangian_finite(n*n, M) || !lagrangian_finite(n*n, H)) return 0;
-    for (int i = 0; i < n; ++i) {
-        const gvi_real mass = lagrangian_abs_of(M[i*n + i]);
-        if (lagrangian_abs_of(a[i]) > 16*lagrangian_eps()*mass*speed) found->linear = 1;
-        for (int j = 0; j < n; ++j) {
-            const int at = i*n + j;
-            const gvi_real size = 256*lagrangian_eps()*GVI_SQRT(mass)*GVI_SQRT(lagrangian_abs_of(M[j*n + j]));
-            if (first) {
-                L->M[at] = lagrangian_abs_of(M[at]) <= of_M[at] + size ? 0 : M[at];
-                found->here[at] = lagrangian_abs_of(H[at]) <= of_H[at] + size ? 0 : H[at];
+    gvi_real worst = 0;
+    for (int j = 0; j < n; ++j) {
+        gvi_real direction[2*LAGRANGIAN_MOST] = { 0 }, size = lagrangian_size(v[j]);
+        if (size <= 0) size = lagrangian_largest(n, v);
+        direction[n + j] = 1;
+        for (int i = 0; i < n; ++i) {
+            const struct lagrangian__line line = { &L->function, L->user, t, q, v, direction, i };
+            gvi_real least = -1, width = size > 0 ? size : (gvi_real)1099511627776.0;         // 2^40
+            H[i*n + j] = 0;
+            for (int k = 0; k < (size > 0 ? 1 : 10); ++k, width /= 1024) {   // at rest: of speeds of any size
+                gvi_real error;
+                const gvi_real h = lagrangian_difference(lagrangian_on_line, &line, width, 0, &error);
+                if (error < 0 || lagrangian_size(h) <= 0 || (least >= 0 && !(error < least*lagrangian_size(h)))) continue;
+                H[i*n + j] = h;
+                least = error/lagrangian_size(h);
             }
-            if (lagrangian_abs_of(M[at] - H[at]) > of_M[at] + of_H[at] + size) found->quadratic = 0;
-            if (lagrangian_abs_of(M[at] - L->M[at]) > of_M[at] + size) {
-                L->varies[at] = 1;
-                found->constant = 0;
-            }
+            if (least > worst) worst = least;
         }
     }
-    return 1;
+    return worst;
 }
 
-/* Is there kinetic energy in all directions?                                  */
-static inline const char *lagrangian_check_mass(lagrangian *L, struct lagrangian__found *found)
+/* Linear in q_i, and without v_i: a multiplier? */
+static inline int lagrangian_is_multiplier(const lagrangian *L, gvi_real t, const gvi_real *q, const gvi_real *v, int i)
+{
+    const int n = L->function.n;
+    gvi_real x[LAGRANGIAN_MOST], w[LAGRANGIAN_MOST];
+    unsigned seed = 5;
+    for (int k = 0; k < n; ++k) {
+        x[k] = q[k] + (1 + lagrangian_size(q[k]))*lagrangian_random(&seed)/8;
+        w[k] = v[k] + (1 + lagrangian_size(v[k]))*lagrangian_random(&seed)/8;
+    }
+    const gvi_real p = lagrangian_momentum(L, t, x, w, 1, i), one = lagrangian_slope(&L->function, L->user, t, x, w, 1, i);
+    x[i] += 1 + lagrangian_size(x[i]);
+    const gvi_real more = lagrangian_slope(&L->function, L->user, t, x, w, 1, i);
+    return more <= one && more >= one && (one < 0 || one > 0) && lagrangian_size(p) <= 0;
+}
+
+/* Is there kinetic energy in all directions?  H: d2L/dv2 at the start, right to `off`. */
+static inline const char *lagrangian_check_mass(lagrangian *L, gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *H,
+                                                gvi_real off)
 {
     const int n = L->function.n;
     gvi_real pivot[LAGRANGIAN_MOST + 1];
-    if (found->quadratic) memcpy(found->here, L->M, sizeof found->here);     // the same, and v adds no rounding
-    if (lagrangian_largest(n*n, found->here) <= 0)
+    if (lagrangian_largest(n*n, H) <= 0)
         return lagrangian_refuse(L, "%s is linear in %s: its equations are of first order; give H(t,q,p) by HAMILTONIAN", "L", "v", 0);
-    for (int i = 0; i < n; ++i)
-        if (lagrangian_largest(n, found->here + i*n) <= 0)
-            return lagrangian_refuse(L, "%s has no kinetic energy in q%s[%d] at the start", "L", "", i);
+    for (int i = 0; i < n; ++i) {
+        if (lagrangian_largest(n, H + i*n) > 0) continue;
+        if (lagrangian_is_multiplier(L, t, q, v, i))
+            return lagrangian_refuse(L, "%s has no kinetic energy in q%s[%d] and is linear in it: is it a multiplier? Leave its term "
+                                        "out, and give what it multiplies as a row, by HOLDS (GVI_CONSTRAINT)", "L", "", i);
+        return lagrangian_refuse(L, "%s has no kinetic energy in q%s[%d] at the start", "L", "", i);
+    }
+
     for (int i = 0; i < n; ++i) {                  // each coordinate in units that make its own mass 1
-        const gvi_real own = lagrangian_abs_of(found->here[i*n + i]), unit = own > 0 ? GVI_SQRT(own) : 1;
+        const gvi_real own = lagrangian_size(H[i*n + i]), unit = own > 0 ? GVI_SQRT(own) : 1;
         for (int j = 0; j < n; ++j) {
-            found->here[i*n + j] /= unit;
-            found->here[j*n + i] /= unit;
+            H[i*n + j] /= unit;
+            H[j*n + i] /= unit;
         }
     }
-    if (gvi_lu_factor(n, found->here, pivot) != GVI_OK)
+    int singular = gvi_lu_factor(n, H, pivot) != GVI_OK;
+    for (int i = 0; i < n && !singular; ++i) singular = lagrangian_size(H[i*n + i]) < 16*off;
+    if (singular)
         return lagrangian_refuse(L, "%s has no kinetic energy in some direction: d2L/d%s2 is singular at the start", "L", "v", 0);
     return NULL;
 }
 
-/* Finds out what L is, from the start and from states near it, on scales of 1/10, 1 and 3 of q and v.
-   Returns NULL, or a sentence that says why L is refused.                     */
+/* Of first degree in v, as a length is: v'dL/dv = L wherever one looks */
+static inline int lagrangian_is_length(const lagrangian *L, gvi_real t, const gvi_real *q, const gvi_real *v)
+{
+    const int n = L->function.n;
+    const gvi_real most = lagrangian_largest(n, v);
+    gvi_real w[LAGRANGIAN_MOST], p[LAGRANGIAN_MOST];
+    unsigned seed = 11;
+    int seen = 0;
+    for (int sample = 0; sample < 12; ++sample) {
+        const gvi_real speed = most > 0 ? most/4 : lagrangian_decade(&seed, 20);
+        for (int i = 0; i < n; ++i) w[i] = (v[i] + speed*lagrangian_random(&seed))*(gvi_real)(1 + sample);
+        const gvi_real value = lagrangian_at(&L->function, L->user, t, q, w, NULL, p);
+        gvi_real off = -value, size = lagrangian_size(value);
+        for (int i = 0; i < n; ++i) {
+            off += w[i]*p[i];
+            size += lagrangian_size(w[i]*p[i]);
+        }
+        if (!lagrangian_finite(1, &size)) continue;
+        if (lagrangian_size(off) > 64*lagrangian_eps()*size) return 0;
+        ++seen;
+    }
+    return seen > 2;
+}
+
+static inline void lagrangian_add_to_kind(lagrangian *L, int what)
+{
+    L->kind = (lagrangian_kind)((((int)L->kind - 1) | what) + 1);
+}
+
+/* The smallest kind, from the one given, that covers L as it is known and dL/dv_i here */
+static inline lagrangian_kind lagrangian_cover(const lagrangian *L, lagrangian_kind from, gvi_real t, const gvi_real *q,
+                                               const gvi_real *v, int i)
+{
+    const int known = (int)L->kind - 1;
+    for (int kind = (int)from; kind < (int)LAGRANGIAN_GENERAL; ++kind) {
+        const struct lagrangian__test test = { LAGRANGIAN__REST_OF_P, i, 0, (lagrangian_kind)kind, 1 };
+        if (((kind - 1) & known) == known && !lagrangian_differs(L, &test, t, q, v, NULL)) return test.kind;
+    }
+    return LAGRANGIAN_GENERAL;
+}
+
+/* One state more: what of it is not yet in L?  Nothing is learned where L is not finite at rest. */
+static inline void lagrangian_learn(lagrangian *L, gvi_real t, const gvi_real *q, const gvi_real *v)
+{
+    const int n = L->function.n;
+    gvi_real a[LAGRANGIAN_MOST], p[LAGRANGIAN_MOST], by_q[LAGRANGIAN_MOST];
+    lagrangian_at(&L->function, L->user, t, q, NULL, by_q, a);
+    if (!lagrangian_finite(n, a) || !lagrangian_finite(n, by_q)) return;
+    if (lagrangian_largest(n, by_q) > 0) L->reads_q = 1;
+    for (int i = 0; i < n; ++i) {
+        const struct lagrangian__test term = { LAGRANGIAN__A, i, 0, L->kind, 0 };
+        if (!lagrangian_has(L->kind, LAGRANGIAN__TERM) && lagrangian_differs(L, &term, t, q, NULL, NULL))
+            lagrangian_add_to_kind(L, LAGRANGIAN__TERM);
+        for (int j = 0; j <= i; ++j) {
+            const struct lagrangian__test entry = { LAGRANGIAN__ENTRY, i, j, L->kind, 0 };
+            const gvi_real M = lagrangian_entry(L, t, q, i, j);
+            if (!lagrangian_finite(1, &M)) return;
+            if (L->varies[i*n + j] || !lagrangian_differs(L, &entry, t, q, NULL, NULL)) continue;
+            L->varies[i*n + j] = L->varies[j*n + i] = 1;
+            lagrangian_add_to_kind(L, LAGRANGIAN__MASS_VARIES);
+        }
+    }
+
+    lagrangian_at(&L->function, L->user, t, q, v, NULL, p);
+    for (int i = 0; i < n; ++i) {
+        const struct lagrangian__test rest = { LAGRANGIAN__REST_OF_P, i, 0, L->kind, 0 };
+        const int undefined = !(p[i] <= 0) && !(p[i] > 0);             // as beyond the speed of light
+        if (!undefined && (!lagrangian_finite(1, p + i) || !lagrangian_differs(L, &rest, t, q, v, NULL))) continue;
+        L->kind = undefined ? LAGRANGIAN_GENERAL : lagrangian_cover(L, L->kind, t, q, v, i);
+        if (L->kind == LAGRANGIAN_GENERAL) return;
+        for (int j = 0; j < n; ++j) L->varies[i*n + j] = L->varies[j*n + i] = 1;
+    }
+}
+
+/* M at the start, where 0 up to rounding is 0 */
+static inline void lagrangian_first_mass(lagrangian *L, gvi_real t, const gvi_real *q, const gvi_real *a)
+{
+    const int n = L->function.n;
+    for (int i = 0; i < n; ++i)                    // less dL/dv_i at v = 0, which is all where there is no mass
+        for (int j = 0; j < n; ++j) L->M[i*n + j] = lagrangian_entry(L, t, q, i, j) - (gvi_real)((lagrangian_real)a[i]/LAGRANGIAN__HUGE);
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < i; ++j) {
+            const gvi_real size = GVI_SQRT(lagrangian_size(L->M[i*n + i]))*GVI_SQRT(lagrangian_size(L->M[j*n + j]));
+            if (lagrangian_size(L->M[i*n + j]) <= 8*lagrangian_eps()*size) L->M[i*n + j] = 0;
+            L->M[j*n + i] = L->M[i*n + j];
+        }
+}
+
+/* States of any size, for there are no units: every third at the place of the start, half of them at the speed of
+   the start, or near it */
+static inline void lagrangian_search(lagrangian *L, gvi_real t, const gvi_real *q, const gvi_real *v)
+{
+    const int n = L->function.n, samples = n > 8 ? 48 : 144;
+    gvi_real x[LAGRANGIAN_MOST], w[LAGRANGIAN_MOST];
+    unsigned seed = 1;
+    for (int sample = 0; sample < samples && L->kind != LAGRANGIAN_GENERAL; ++sample) {
+        const int here = sample%3 == 0, narrow = sample%4 == 1 ? 4 : 20;
+        const gvi_real speed = sample%2 ? 1 : lagrangian_decade(&seed, 80),
+                       wait = here ? 0 : lagrangian_scale(1, &t, 0)*lagrangian_decade(&seed, 40);
+        for (int i = 0; i < n; ++i) {
+            const gvi_real way = here ? 0 : lagrangian_scale(n, q, i)*lagrangian_decade(&seed, narrow);
+            x[i] = q[i] + way*lagrangian_random(&seed);
+            w[i] = sample ? speed*lagrangian_random(&seed) + (sample%4 < 2 ? v[i] : 0) : v[i];
+        }
+        lagrangian_learn(L, t + wait*lagrangian_random(&seed), x, w);
+    }
+}
+
+/* Finds out what L is.  Returns NULL, or a sentence that says why L is refused. */
 static inline const char *lagrangian_init(lagrangian *L, lagrangian_function function, const void *user, gvi_real t,
                                           const gvi_real *q, const gvi_real *v)
 {
     const int n = function.n;
-    gvi_real x[LAGRANGIAN_MOST], w[LAGRANGIAN_MOST];
-    struct lagrangian__found found = { { 0 }, 1, 1, 0 };
-    unsigned seed = 1;
-    int known = 0;                    /* is L defined at rest, where the start is? */
+    gvi_real a[LAGRANGIAN_MOST], by_q[LAGRANGIAN_MOST], H[LAGRANGIAN__MATRIX], off = 0;
     if (lagrangian_begin(L, function, user, t, q, v, "L", "v")) return L->why;
+    lagrangian_at(&function, user, t, q, NULL, by_q, a);
+    lagrangian_first_mass(L, t, q, a);
+    const int quadratic = lagrangian_finite(n, a) && lagrangian_finite(n, by_q) && lagrangian_finite(n*n, L->M);
+    L->kind = quadratic ? LAGRANGIAN_POTENTIAL : LAGRANGIAN_GENERAL;
+    lagrangian_search(L, t, q, v);
 
-    gvi_real size = lagrangian_largest(n, q), speed = lagrangian_largest(n, v);
-    if (size <= 0) size = 1;
-    if (speed <= 0) speed = 1;
-    for (int sample = 0; sample < 12; ++sample) {
-        const gvi_real reach = (gvi_real)(sample == 0 ? 0 : sample < 6 ? 0.1 : sample < 9 ? 1 : 3);
-        for (int i = 0; i < n; ++i) {
-            x[i] = q[i] + reach*size*lagrangian_random(&seed);
-            w[i] = v[i] + (reach > 0)*speed*lagrangian_random(&seed)/2;
-        }
-        const gvi_real time = t + reach*lagrangian_random(&seed);
-        for (gvi_real part = 1; part > (gvi_real)1e-4; part /= 4) {  // slower where L is not defined: speed of light
-            const int learned = lagrangian_learn(L, &found, time, x, w, part*speed, sample == 0);
-            if (sample == 0) known |= learned;
-            if (learned) break;
-            for (int i = 0; i < n; ++i) w[i] = v[i] + (w[i] - v[i])/4;
-        }
+    memcpy(H, L->M, sizeof H);
+    if (L->kind == LAGRANGIAN_GENERAL) {
+        if (lagrangian_is_length(L, t, q, v))
+            return lagrangian_refuse(L, "%s is of first degree in %s, as a length is: any speed along the curve would do. Take "
+                                        "half its square, v'g(q)v/2, whose curves are the same", "L", "v", 0);
+        off = lagrangian_hessian(L, t, q, v, H);
+        if (off > (gvi_real)1e-3) off = 0;         // not to be relied on
     }
-    if (known && lagrangian_check_mass(L, &found)) return L->why;
-    L->kind = !known || !found.quadratic || (found.linear && !found.constant) ? LAGRANGIAN_GENERAL
-            : !found.constant ? LAGRANGIAN_MASS : found.linear ? LAGRANGIAN_LINEAR : LAGRANGIAN_POTENTIAL;
+    if (lagrangian_check_mass(L, t, q, v, H, off)) return L->why;
+    L->found = L->kind;
+    L->t = t;
+    memcpy(L->q, q, (size_t)n*sizeof *q);
+    memcpy(L->v, v, (size_t)n*sizeof *v);
     return NULL;
+}
+
+static inline const char *lagrangian_kind_text(lagrangian_kind kind)
+{
+    switch (kind) {
+    case LAGRANGIAN_POTENTIAL:   return "v'Mv/2 - V(t,q)";
+    case LAGRANGIAN_LINEAR:      return "v'Mv/2 + a(t,q)'v - V(t,q)";
+    case LAGRANGIAN_MASS:        return "v'M(t,q)v/2 - V(t,q)";
+    case LAGRANGIAN_MASS_LINEAR: return "v'M(t,q)v/2 + a(t,q)'v - V(t,q)";
+    case LAGRANGIAN_GENERAL:     return "of no special form";
+    default:                     return "refused";
+    }
 }
 
 static inline const char *lagrangian_text(const lagrangian *L)
 {
-    switch (L->kind) {
-    case LAGRANGIAN_POTENTIAL: return "v'Mv/2 - V(t,q)";
-    case LAGRANGIAN_LINEAR:    return "v'Mv/2 + a(t,q)'v - V(t,q)";
-    case LAGRANGIAN_MASS:      return "v'M(t,q)v/2 - V(t,q)";
-    case LAGRANGIAN_GENERAL:   return "of no special form";
-    default:                   return "refused";
+    if (L->kind == LAGRANGIAN_POTENTIAL && !L->reads_q) return "v'Mv/2, no q seen in it";
+    return lagrangian_kind_text(L->kind);
+}
+
+/* ------------------------------------------------------------------ the watch
+
+   Is L still what it was found to be?  One dL/dv_i at one point of 32 against what L.kind says, at the v of the step
+   or, where a step makes none, at one that its points show.  Of C every fourth look also compares a
+   derivative with a difference, along the motion.  What is off makes the callback fail, and from then on all points
+   are looked at until none is.                                                 */
+
+static inline int lagrangian_fail(lagrangian *L, const gvi_points *x)
+{
+    L->alert = 16;
+    return gvi_fail(x, L->why);
+}
+
+static inline int lagrangian_is_other(lagrangian *L, gvi_real t, const gvi_real *q, const gvi_real *v, int i)
+{
+    const struct lagrangian__test test = { LAGRANGIAN__REST_OF_P, i, 0, L->kind, 0 };
+    static const char *const names[] = { "", "", "LINEAR", "MASS", "MASS_LINEAR", "GENERAL" };
+    gvi_real size;
+    if (L->kind == LAGRANGIAN_GENERAL || !lagrangian_differs(L, &test, t, q, v, L->grain + i)) return 0;
+    const gvi_real p = lagrangian_momentum(L, t, q, v, 1, i), off = lagrangian_off(L, &test, t, q, v, &size);
+    snprintf(L->why, sizeof L->why,
+             "L is not %s, as it was near the start: at t = %.9g, q[%d] = %.9g, v[%d] = %.9g its dL/dv[%d] is %.15g, not %.15g; "
+             "set L.kind = LAGRANGIAN_%s after lagrangian_init",
+             lagrangian_kind_text(L->kind), (double)t, i, (double)q[i], i, (double)v[i], i, (double)p, (double)(p - off),
+             names[lagrangian_cover(L, (lagrangian_kind)((int)L->kind + 1), t, q, v, i)]);
+    return 1;
+}
+
+/* `way`: to a neighbour, of q and v */
+static inline int lagrangian_loses(lagrangian *L, gvi_real t, const gvi_real *q, const gvi_real *v, const gvi_real *way)
+{
+    const struct lagrangian__line line = { &L->function, L->user, t, q, v, way, -1 };
+    if (!lagrangian_loses_on(&line)) return 0;
+    if (!lagrangian_compare(L, t, q, v))
+        snprintf(L->why, sizeof L->why, "a derivative of %s is lost: is a variable in it a double that has to be a number?", L->name);
+    const size_t end = strlen(L->why);
+    snprintf(L->why + end, sizeof L->why - end, " (at t = %.9g, q[0] = %.9g)", (double)t, (double)q[0]);
+    return 1;
+}
+
+/* Point k: q and v, and the way to a neighbour */
+static inline void lagrangian_state(const lagrangian *L, const gvi_points *x, int k, gvi_real *q, gvi_real *v, gvi_real *way)
+{
+    const int n = x->n, R = x->stride, to = k + 1 < x->count ? k + 1 : k - 1;
+    const gvi_real dt = to < 0 ? L->t - x->t[k] : x->t[to] - x->t[k];
+    for (int i = 0; i < n; ++i) {
+        q[i] = x->q[i*R + k];
+        way[i] = (to < 0 ? L->q[i] : x->q[i*R + to]) - q[i];
+        v[i] = x->v ? x->v[i*R + k] : dt < 0 || dt > 0 ? way[i]/dt : L->v[i];
+        way[n + i] = to < 0 ? L->v[i] - v[i] : x->v ? x->v[i*R + to] - v[i] : 0;
     }
+}
+
+static inline int lagrangian_look(lagrangian *L, const gvi_points *x)
+{
+    const int n = x->n;
+    gvi_real q[LAGRANGIAN_MOST], v[LAGRANGIAN_MOST], way[2*LAGRANGIAN_MOST];
+    L->points += x->count > 4 ? x->count : 4;      // explicit steps have one
+    if (!L->alert && L->points < 32) return 0;
+    L->points = 0;
+    if (!L->alert) ++L->looks;
+
+    const int one = (L->looks*3)%x->count, from = L->alert ? 0 : one, end = L->alert ? x->count : one + 1;
+    for (int k = from; k < end; ++k) {
+        lagrangian_state(L, x, k, q, v, way);
+        if (!lagrangian_finite(n, q) || !lagrangian_finite(n, v)) continue;      // an iterate that went astray
+        if (lagrangian_is_other(L, x->t[k], q, v, L->looks%n)) return lagrangian_fail(L, x);
+        if (LAGRANGIAN__LOSES && (L->alert || L->looks%4 == 0) && lagrangian_loses(L, x->t[k], q, v, way)) return lagrangian_fail(L, x);
+    }
+    if (L->alert) --L->alert;
+    L->t = x->t[end - 1];
+    memcpy(L->q, q, (size_t)n*sizeof *q);
+    memcpy(L->v, v, (size_t)n*sizeof *v);
+    return 0;
 }
 
 /* -------------------------------------------------------------- effect and mass */
 
-/* What lagrangian_add is asked for most: derivatives by q at v, or with v NULL at rest. */
-static inline lagrangian_wanted lagrangian_want(const lagrangian *L, const gvi_points *x, const gvi_real *v, gvi_real scale)
+static inline int lagrangian_other_n(const gvi_points *x)
 {
-    lagrangian_wanted a;
-    memset(&a, 0, sizeof a);
-    a.x = x;
-    a.w = v;
-    a.one = -1;
-    a.scale = scale;
-    a.by_q = x->f;
-    a.end = x->n;
-    a.apart = x->stride;
-    a.user = L->user;
-    return a;
-}
-
-/* f += dL/dq at v = 0, kept for lagrangian_gradient, which the library asks for next, at the same points. */
-static inline void lagrangian_rest(lagrangian *L, const gvi_points *x)
-{
-    lagrangian_wanted a = lagrangian_want(L, x, NULL, 1);
-    const int length = x->n*x->stride;
-    if (L->kind == LAGRANGIAN_MASS && length <= LAGRANGIAN__KEPT) {
-        a.by_q = L->rest;
-        memset(L->rest, 0, (size_t)length*sizeof *L->rest);
-        memcpy(L->q, x->q, (size_t)length*sizeof *L->q);
-        L->t = x->t[x->count - 1];
-        L->kept = length;
-    }
-    L->function.add(&a);
-    for (int i = 0; i < length && a.by_q == L->rest; ++i) x->f[i] += L->rest[i];
+    return gvi_fail(x, "desc.n is not that of LAGRANGIAN or HAMILTONIAN");
 }
 
 /* POTENTIAL, MASS: V = -L(t,q,0) */
 static inline int lagrangian_potential(const gvi_points *x, void *user)
 {
     lagrangian *L = (lagrangian *)user;
-    lagrangian_wanted a = lagrangian_want(L, x, NULL, -1);
-    if (x->n != L->function.n) return 1;
-    if (x->f) lagrangian_rest(L, x);
+    if (x->n != L->function.n) return lagrangian_other_n(x);
+    lagrangian_wanted a = lagrangian_want(L->user, x, NULL, 1);
+    a.by_q = x->f;
+    if (x->f) L->function.add(&a);
     a.by_q = NULL;
+    a.scale = -1;
     a.value = x->value;
     if (x->value) L->function.add(&a);
-    return 0;
+    return x->f && L->kind == LAGRANGIAN_POTENTIAL ? lagrangian_look(L, x) : 0;
 }
 
-/* LINEAR: L - v'Mv/2, dL/dv at v = 0; GENERAL: L */
+/* LINEAR, MASS_LINEAR: L - v'Mv/2 */
 static inline int lagrangian_term(const gvi_points *x, void *user)
 {
-    const lagrangian *L = (const lagrangian *)user;
-    const int n = x->n, R = x->stride, linear = L->kind == LAGRANGIAN_LINEAR;
-    lagrangian_wanted a = lagrangian_want(L, x, x->v, 1);
-    if (n != L->function.n) return 1;
-    a.value = x->value;
-    if (!linear) a.by_w = x->dldv;
-    if (a.by_q || a.by_w || a.value) L->function.add(&a);
-    if (!linear) return 0;
-    if (x->dldv) {
-        a = lagrangian_want(L, x, NULL, 1);
-        a.by_q = NULL;
-        a.by_w = x->dldv;
-        L->function.add(&a);
-    }
-    for (int k = 0; k < x->count && x->value; ++k)
-        for (int i = 0; i < n; ++i)
-            for (int j = 0; j < n; ++j) x->value[k] -= x->v[i*R + k]*L->M[i*n + j]*x->v[j*R + k]/2;
-    return 0;
+    lagrangian *L = (lagrangian *)user;
+    if (x->n != L->function.n) return lagrangian_other_n(x);
+    lagrangian_wanted a = lagrangian_want(L->user, x, x->v, 1), kinetic = lagrangian_want_quadratic(L->user, x, x->v, -1),
+                      term = lagrangian_want(L->user, x, NULL, 1);
+    a.by_q = x->f;
+    a.value = kinetic.value = x->value;
+    term.by_w = x->dldv;
+    if (L->kind == LAGRANGIAN_MASS_LINEAR) kinetic.by_q = x->f;        // see lagrangian_gradient
+    if (x->f || x->value) L->function.add(&a);
+    if (kinetic.by_q || x->value) L->function.add(&kinetic);
+    if (x->dldv) L->function.add(&term);
+    return x->f ? lagrangian_look(L, x) : 0;
 }
 
-/* MASS: column j of M(q) is dL/dv at v = e_j, from the first to the last entry that varies */
+static inline int lagrangian_whole(const gvi_points *x, void *user)
+{
+    lagrangian *L = (lagrangian *)user;
+    if (x->n != L->function.n) return lagrangian_other_n(x);
+    lagrangian_wanted a = lagrangian_want(L->user, x, x->v, 1);
+    a.by_q = x->f;
+    a.by_w = x->dldv;
+    a.value = x->value;
+    if (x->f || x->dldv || x->value) L->function.add(&a);
+    return x->f ? lagrangian_look(L, x) : 0;
+}
+
+/* Column j of M(q) is dL/dv at a huge v = e_j, from the first to the last entry that varies */
 static inline int lagrangian_matrix(const gvi_points *x, void *user)
 {
     const lagrangian *L = (const lagrangian *)user;
     const int n = x->n, R = x->stride;
-    if (n != L->function.n) return 1;
+    if (n != L->function.n) return lagrangian_other_n(x);
     for (int j = 0; j < n; ++j) {
-        lagrangian_wanted a = lagrangian_want(L, x, NULL, 1);
-        a.one = a.first = j;
+        lagrangian_wanted a = lagrangian_want(L->user, x, NULL, 1);
+        a.first = j;
         while (a.first < n && !L->varies[a.first*n + j]) ++a.first;
         while (a.end > a.first && !L->varies[(a.end - 1)*n + j]) --a.end;
         for (int i = j; i < n; ++i)
             for (int k = 0; k < x->count && (i < a.first || i >= a.end); ++k) x->mass[(i*n + j)*R + k] = L->M[i*n + j];
-        a.by_q = NULL;
+        a.one = j;
+        a.times = LAGRANGIAN__HUGE;
+        a.scale = 1/LAGRANGIAN__HUGE;
         a.by_w = x->mass + j*R;
         a.apart = n*R;
         if (a.first < a.end) L->function.add(&a);
@@ -725,48 +1464,42 @@ static inline int lagrangian_matrix(const gvi_points *x, void *user)
     return 0;
 }
 
-/* v' dM/dq v/2 = dL/dq - dL/dq at v = 0 */
+/* v' dM/dq v/2 = dL/dq at a huge v */
 static inline int lagrangian_gradient(const gvi_points *x, void *user)
 {
-    const lagrangian *L = (const lagrangian *)user;
-    lagrangian_wanted a = lagrangian_want(L, x, x->v, 1);
-    const int length = x->n*x->stride;
+    lagrangian *L = (lagrangian *)user;
+    if (x->n != L->function.n) return lagrangian_other_n(x);
+    lagrangian_wanted a = lagrangian_want_quadratic(L->user, x, x->v, 1);
+    a.by_q = x->f;
     L->function.add(&a);
-    if (L->kept == length && !memcmp(&L->t, x->t + x->count - 1, sizeof L->t)
-        && !memcmp(L->q, x->q, (size_t)length*sizeof *L->q)) {
-        for (int i = 0; i < length; ++i) x->f[i] -= L->rest[i];
-        return 0;
-    }
-    a = lagrangian_want(L, x, NULL, -1);
-    L->function.add(&a);
-    return 0;
+    return L->kind == LAGRANGIAN_MASS ? lagrangian_look(L, x) : 0;
+}
+
+/* What was set to more than was found: then any entry of M may vary. */
+static inline void lagrangian_take(lagrangian *L)
+{
+    if (L->kind != L->found) memset(L->varies, 1, sizeof L->varies);
+    L->found = L->kind;
 }
 
 static inline gvi_effect lagrangian_effect(lagrangian *L)
 {
     gvi_effect effect;
+    const int term = lagrangian_has(L->kind, LAGRANGIAN__TERM), whole = L->kind == LAGRANGIAN_GENERAL;
+    lagrangian_take(L);
     memset(&effect, 0, sizeof effect);
-    const int potential = L->kind == LAGRANGIAN_POTENTIAL || L->kind == LAGRANGIAN_MASS;
-    effect.kind = potential ? GVI_POTENTIAL : GVI_LAGRANGIAN;
-    if (L->kind != LAGRANGIAN_REFUSED) effect.points = potential ? lagrangian_potential : lagrangian_term;
+    effect.kind = term || whole ? GVI_LAGRANGIAN : GVI_POTENTIAL;
+    if (L->kind != LAGRANGIAN_REFUSED) effect.points = whole ? lagrangian_whole : term ? lagrangian_term : lagrangian_potential;
     effect.value = effect.points;
     effect.user = L;
     return effect;
 }
 
-static inline gvi_mass lagrangian_mass(lagrangian *L)
+/* The constant mass, in its simplest form */
+static inline void lagrangian_matrix_of(lagrangian *L, gvi_mass *mass)
 {
-    gvi_mass mass;
     const int n = L->function.n;
     int unit = 1, diagonal = 1;
-    memset(&mass, 0, sizeof mass);
-    mass.user = L;
-    mass.kind = L->kind == LAGRANGIAN_MASS ? GVI_MASS_POSITION : GVI_MASS_NONE;
-    if (L->kind == LAGRANGIAN_MASS) {
-        mass.points = lagrangian_matrix;
-        mass.gradient = lagrangian_gradient;
-    }
-    if (L->kind != LAGRANGIAN_POTENTIAL && L->kind != LAGRANGIAN_LINEAR) return mass;
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) {
             const gvi_real m = L->M[i*n + j];
@@ -774,8 +1507,22 @@ static inline gvi_mass lagrangian_mass(lagrangian *L)
             if (i == j && (m < 1 || m > 1)) unit = 0;
         }
     for (int i = 0; i < n && diagonal; ++i) L->diagonal[i] = L->M[i*n + i];
-    mass.kind = diagonal ? unit ? GVI_MASS_UNIT : GVI_MASS_DIAGONAL : GVI_MASS_DENSE;
-    mass.matrix = !diagonal ? L->M : unit ? NULL : L->diagonal;
+    mass->kind = diagonal ? unit ? GVI_MASS_UNIT : GVI_MASS_DIAGONAL : GVI_MASS_DENSE;
+    mass->matrix = !diagonal ? L->M : unit ? NULL : L->diagonal;
+}
+
+static inline gvi_mass lagrangian_mass(lagrangian *L)
+{
+    gvi_mass mass;
+    lagrangian_take(L);
+    memset(&mass, 0, sizeof mass);
+    mass.user = L;
+    mass.kind = GVI_MASS_NONE;
+    if (L->kind == LAGRANGIAN_POTENTIAL || L->kind == LAGRANGIAN_LINEAR) lagrangian_matrix_of(L, &mass);
+    if (L->kind != LAGRANGIAN_MASS && L->kind != LAGRANGIAN_MASS_LINEAR) return mass;
+    mass.kind = GVI_MASS_POSITION;
+    mass.points = lagrangian_matrix;
+    mass.gradient = lagrangian_gradient;
     return mass;
 }
 
@@ -801,30 +1548,33 @@ static inline const char *hamiltonian_init(hamiltonian *H, lagrangian_function f
     H->user = user;
     const char *why = lagrangian_begin(&H->look, function, user, t, q, p, "H", "p");
     if (why) H->function.add = NULL;
+    H->look.kind = LAGRANGIAN_GENERAL;             // of which the watch looks for derivatives that are lost
     return why;
 }
 
 static inline int hamiltonian_velocity(const gvi_points *x, void *user)
 {
     hamiltonian *H = (hamiltonian *)user;
-    lagrangian_wanted a = lagrangian_want(&H->look, x, x->p, 1);
-    if (x->n != H->function.n) return 1;
-    a.by_q = NULL;
+    gvi_points at = *x;
+    if (x->n != H->function.n) return lagrangian_other_n(x);
+    lagrangian_wanted a = lagrangian_want(H->user, x, x->p, 1);
     a.by_w = x->velocity;
     memset(x->velocity, 0, (size_t)(x->n*x->stride)*sizeof *x->velocity);
     H->function.add(&a);
     H->q = x->q;
     H->p = x->p;
     H->v = x->velocity;
-    return 0;
+    at.v = x->p;
+    return lagrangian_look(&H->look, &at);
 }
 
 static inline int hamiltonian_term(const gvi_points *x, void *user)
 {
     const hamiltonian *H = (const hamiltonian *)user;
     const int n = x->n, R = x->stride;
-    if (!H->p || x->q != H->q || x->v != H->v) return 1;
-    lagrangian_wanted a = lagrangian_want(&H->look, x, H->p, -1);
+    if (!H->p || x->q != H->q || x->v != H->v) return gvi_fail(x, "H needs gvi_start_momentum and GVI_MOMENTA: a velocity is not its start");
+    lagrangian_wanted a = lagrangian_want(H->user, x, H->p, -1);
+    a.by_q = x->f;
     a.value = x->value;
     if (a.by_q || a.value) H->function.add(&a);
     for (int i = 0; i < n; ++i)
