@@ -27,6 +27,7 @@ for compile in "${CC:-cc} -std=c99 -Wall -Wextra -Wpedantic -Werror -xc" "${CXX:
 done
 make -s mycost BUILD="$dir" FILE=tests/compile/mine.c >"$dir/mycost.out" && grep -q '^degree 8 ' "$dir/mycost.out" &&
     grep -q '^the dial ' "$dir/mycost.out" && [ -s "$dir/mycost.svg" ] || fail "make mycost"
+make -s mycost BUILD="$dir" FILE=tests/compile/mycost_orbit.c | grep -q '^degree 8 ' || fail "make mycost, rows of effects.h"
 count=$((count + 1))
 if have pkg-config; then
     export PKG_CONFIG_PATH="$dir/stage/opt/share/pkgconfig"
