@@ -16,7 +16,7 @@
      parameter 2   c of atmosphere
 
    For other effects write such blocks: effects_tangent_apply does the rest.  A particle not in
-   space (dim 2) fails.  In C++20, too.  Checked by tangent_check: tests/test_tangent.c. */
+   space (dim 2) fails.  In C++20, too.  Held to differences by tests/test_effects.c. */
 #ifndef EFFECTS_TANGENT_H
 #define EFFECTS_TANGENT_H
 #if defined __cplusplus && defined __GNUC__
