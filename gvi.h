@@ -807,11 +807,10 @@ typedef struct gvi_desc {
     const gvi_effect *effects;
     int               effect_count;    /* to GVI_EFFECTS; 0 only where effects is NULL */
     gvi_formulation   formulation;     /* pinned: no fall-back and no memory for one */
-    gvi_real          tolerance;       /* to eps/65536: iterate to rounding.  Else, below 1, the
+    gvi_real          tolerance;       /* 0 to eps/65536: iterate to rounding.  Else, below 1, the
                                           iteration ends when the change yet to come, as the last
                                           two changes predict it, is below tolerance*|q|: faster,
-                                          but the energy may drift.  No effect where explicit.
-                                          0: eps/65536, with the dial resolution/65536 */
+                                          but the energy may drift.  No effect where explicit */
     int               max_iterations;  /* to 1,000,000.  0: 60                 */
     int               iterations;      /* N: exactly N iterations in every step, for a loop with
                                           a deadline; never Newton.  A step fails unless its last
@@ -1098,7 +1097,7 @@ typedef struct gvi_stepper {
     int             iterations;       /* in the last step                       */
     gvi_real        resolution;       /* of the last step that was tried, with desc.resolution:
                                          the largest relative error of a coordinate and its velocity
-                                         together, as the curve's modes show it (STEP); the true
+                                         together, as the curve's modes show it (THE DIAL); the true
                                          error is usually far smaller, rarely 10 times as large */
     gvi_real        next;             /* the length that gvi_advance will try; may be set  */
     gvi_counters    counters;
@@ -2039,6 +2038,15 @@ static gvi_real gvi__node_guess(int lobatto, int m, int j)
     return sine*sine;
 }
 
+// a correction in one word; three of these, and one or two in double words are left
+GVI__COLD gvi_real gvi__node_nearer(int lobatto, int m, gvi_real c)
+{
+    gvi_real P = 1, d = 0;
+    for (int k = 0; k < m; ++k) gvi__legendre(k, 1 - 2*c, &P, &d);
+    d -= (1 - 2*c)*P;
+    return lobatto ? c - d/(2*(gvi_real)(m + 1)*P) : c + 2*P*c*(1 - c)/((gvi_real)m*d);
+}
+
 /* Nodes and weights; c_low, if given, gets the low words of c.  Nodes are symmetric about 1/2: one
    half is computed.  After a correction below eps the next one would be below its square: c is then
    accurate relative to itself, even next to the end of the interval.                         */
@@ -2051,6 +2059,7 @@ GVI__COLD gvi_status gvi__rule(int lobatto, int n, gvi_real *c, gvi_real *c_low,
         if (2*j + 1 == n) start = (gvi_real)0.5;       // and so is the middle
         else if (j > 0 || !lobatto) {
             start = gvi__node_guess(lobatto, m, j);
+            for (int k = 0; k < 3; ++k) start = gvi__node_nearer(lobatto, m, start);
             last = 1;
         }
         gvi__two x = gvi__two_of(start, 0);
@@ -3425,7 +3434,7 @@ GVI__BODY gvi_real gvi__scale_of(gvi_real base, gvi_real was, gvi_real is)
     return size > GVI__NOTHING ? 1/size : 0;
 }
 
-// the squares at eight points, added up in one order everywhere
+// the squares at eight points, in the order that lanes add them up
 GVI__BODY gvi_real gvi__sum_squares(const gvi_real *z)
 {
     return ((z[0] + z[4]) + (z[1] + z[5])) + ((z[2] + z[6]) + (z[3] + z[7]));
@@ -3508,7 +3517,7 @@ GVI__BODY gvi_real gvi__rows_by_lanes(const gvi_stepper *st, const gvi__stage *G
     gvi_real few[16], *L = R <= 16 ? few : st->in.weighted, total[8];
     gvi__lane square[GVI__BLOCK] = { none };
 
-    for (int i = 0; i < n; ++i) {
+    GVI__LOOP(GCC unroll 2) for (int i = 0; i < n; ++i) {
         gvi_real *row = y->rows + i*R, scale = y->scale[i];
         const gvi_real base = y->base[i], inverse = y->inverse[i], factor = y->factor;
         const gvi_real was = row[last], half = row[middle];
@@ -3590,6 +3599,7 @@ GVI__KERNEL(gvi__rows_8,     st->n, 8, 8)
 GVI__KERNEL(gvi__rows_to_8,  st->n, st->r, 8)
 GVI__KERNEL(gvi__rows_12,    st->n, 12, 16)
 GVI__KERNEL(gvi__rows_16,    st->n, 16, 16)
+GVI__KERNEL(gvi__rows_to_16, st->n, st->r, 16)
 GVI__KERNEL(gvi__rows_many,  st->n, st->r, st->in.R)
 #endif
 
@@ -3602,7 +3612,8 @@ static gvi__kernel *gvi__kernel_for(const gvi_stepper *st)
     if (st->r == 6) return gvi__rows_6;
     if (st->r == 12) return gvi__rows_12;
     if (st->r == 16) return gvi__rows_16;
-    if (st->r > 4) return st->r < 8 ? gvi__rows_to_8 : gvi__rows_many;
+    if (st->r > 4)
+        return st->r < 8 ? gvi__rows_to_8 : st->r < 16 ? gvi__rows_to_16 : gvi__rows_many;
 #endif
     return gvi__rows_by_points;
 }
@@ -3685,6 +3696,7 @@ static void gvi__sums(const gvi_stepper *st, const gvi_real *table, const gvi_re
     const int n = st->n, r = st->r, R = st->in.R;
     if (GVI__LANES > 1 && r == 8) gvi__sums_at(n, 8, 8, table, source, rows, add);
     else if (GVI__LANES > 1 && r > 4 && R == 8) gvi__sums_at(n, r, 8, table, source, rows, add);
+    else if (GVI__LANES > 1 && R == 16) gvi__sums_at(n, r, 16, table, source, rows, add);
     else if (GVI__LANES > 1 && r > 4) gvi__sums_at(n, r, R, table, source, rows, add);
     else for (int i = 0; i < n; ++i, source += R, rows += R)
         for (int k = 0; k < R; ++k) {
@@ -3790,11 +3802,12 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
 
 /* THE FLOOR: what rounding alone changes of a row from one iteration to the next, and how far the
    changes exceed it, the largest of all rows.  A row's own floor is 4 eps of its largest value.
-   With `all` it is 32 eps of the largest amplitude: where the iteration contracts, h^2 dF/dQ between
-   amplitudes is below 1, so the rounding of one coordinate makes no more than that of another: a
+   With `all` it is 32 eps of the largest amplitude: where the iteration contracts, h^2 dF/dQ
+   between amplitudes is below 1, so the rounding of one coordinate makes no more of another: a
    light body midway between two heavy ones.  To both comes what constraints add: to Q the rounding
    of g as well, which a velocity must not show.                                               */
-GVI__CALLED gvi_real gvi__excess(const gvi_stepper *st, gvi_real h, const gvi__stage *stage, int all)
+GVI__CALLED gvi_real gvi__excess(const gvi_stepper *st, gvi_real h, const gvi__stage *stage,
+                                 int all)
 {
     const int parts = gvi__parts(&st->in) != 0;
     const gvi_real eps = GVI__EPS*(all ? GVI__NOISE : GVI__PLACE);
@@ -3868,17 +3881,6 @@ static void gvi__note(gvi_stepper *st, gvi__progress *p, gvi_real D)
     p->rescale = D > GVI__FAR*GVI__FAR || gvi__is_poor(p);
 }
 
-// may a change be rounding?  Not while a row falls to a quarter, above its last places
-static int gvi__stands_still(const gvi_stepper *st)
-{
-    const gvi_real *change = st->in.watch.change, *before = st->in.watch.before,
-                   place = GVI__PLACE*GVI__EPS;
-    if (gvi__parts(&st->in) && gvi__place_moves(st)) return 0;
-    for (int row = 0; row < st->in.stages*st->n; ++row)
-        if (change[row] > place*place && change[row] < before[row]/16) return 0;
-    return 1;
-}
-
 /* What falls goes on.  What makes no new least is rounding below the floor: below a row's own at
    once, below that of all rows after a while, which as a rule is above what a row can reach.
    What is above it and falls by less than a bit, time after time, does not converge.  Under
@@ -3887,9 +3889,10 @@ static int gvi__rests(gvi_stepper *st, gvi__progress *p, gvi_real h, const gvi__
 {
     const int patience = gvi__parts(&st->in) && gvi__place_holds(st) ? 0 : 1,
               long_since = p->idle > 1 + 3*patience, poor = gvi__is_poor(p),
-              still = p->idle > patience && gvi__stands_still(st);
+              still = p->idle > patience && !(gvi__parts(&st->in) && gvi__place_moves(st)),
+              slow = st->in.turns && p->used - p->idle >= GVI__SLOW,
+              rest = slow ? GVI__DIVERGES : GVI__ONCE_MORE;
 
-    const int rest = st->in.turns && p->used - p->idle >= GVI__SLOW ? GVI__DIVERGES : GVI__ONCE_MORE;
     if (still && gvi__excess(st, h, stage, 0) <= 1) return rest;
     if (!poor) p->poor = 0;
     if (!poor && !long_since) return GVI__GO_ON;
@@ -4023,6 +4026,7 @@ static void gvi__sum_rows(const gvi_stepper *st, gvi_real *rows, const gvi_real 
         gvi__two z;
         if (R == 8) z = gvi__exact_dot(8, st->in.sized.hb, rows);
         else if (R == 4) z = gvi__exact_dot(4, st->in.sized.hb, rows);
+        else if (R == 16) z = gvi__exact_dot(16, st->in.sized.hb, rows);
         else z = gvi__exact_dot(R, st->in.sized.hb, rows);
         sum[i] = z.hi;
         sum_low[i] = gvi__low(z.lo + low[i]);
@@ -4175,8 +4179,8 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *in = &st->in;
     const gvi__two t = gvi__two_sum(st->t, in->dt + st->t_low);
-    gvi__move(st->n, in->step.q, in->step.q_low, in->state.q, in->state.q_low, in->began.q);
-    gvi__move(st->n, in->step.p, in->step.p_low, in->state.p, in->state.p_low, in->began.p);
+    // p stands behind q
+    gvi__move(2*st->n, in->step.q, in->step.q_low, in->state.q, in->state.q_low, in->began.q);
     st->t0 = st->t;
     st->t = t.hi;
     st->t_low = t.lo;
@@ -4531,7 +4535,8 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
 
     gvi__copy((size_t)n, at->dldv, base);
     for (int j = 0; j < n; ++j) {
-        const gvi_real was = v[j], push = GVI_ABS(st->in.sized.h*at->f[j])*root;
+        const gvi_real was = v[j], moves = GVI_ABS(st->in.sized.h*at->f[j]),
+                       push = root*gvi__larger(moves, GVI_ABS(base[j]));
         const int rests = !gvi__nonzero(was);
         gvi_real d = 0, next = root*GVI_ABS(was);
         if (rests) next = root*(gvi__norm1(n, v)/(gvi_real)n);
@@ -4718,17 +4723,15 @@ static void gvi__lagrangian_predict(const gvi_stepper *st, int extrapolate)
 
 /* ---- the mass at the points ---- */
 
-/* The same for whole lanes of points.  Returns whether all pivots D are sure: the squares of
-   (diagonal entry before elimination)/D, and of what rounding leaves of D/D - 1, add up to less
-   than 1/(n eps)^2.  Otherwise gvi__ldl_factor has to decide, from the matrix made anew.     */
-GVI__BODY int gvi__ldl_factor_lane(int n, int R, gvi_real *m)
+/* The same for whole lanes of points.  Returns the squares of (diagonal entry before
+   elimination)/D, and of what rounding leaves of D/D - 1: all pivots D are sure if they add up to
+   less than 1/(n eps)^2.  Otherwise gvi__ldl_factor has to decide, from the matrix made anew. */
+GVI__BODY gvi__lane gvi__ldl_factor_lane(int n, int R, gvi_real *m)
 {
     const size_t N = (size_t)n, S = (size_t)R;
-    const gvi_real most = 1/((gvi_real)n*GVI__EPS);
     gvi__lane sum = { 0 };
-    gvi_real all = 0;
 
-    for (size_t j = 0; j < N; ++j) {
+    GVI__LOOP(GCC unroll 2) for (size_t j = 0; j < N; ++j) {
         gvi_real *d = m + (j*N + j)*S;
         gvi__lane rest = GVI__LOAD(d);
         for (size_t l = 0; l < j; ++l)
@@ -4746,8 +4749,7 @@ GVI__BODY int gvi__ldl_factor_lane(int n, int R, gvi_real *m)
         }
     }
 
-    for (int k = 0; k < GVI__LANES; ++k) all += GVI__ENTRY(sum, k);
-    return all < most*most;
+    return sum;
 }
 
 // z := M^-1 from, which may be z
@@ -4755,16 +4757,24 @@ GVI__BODY void gvi__ldl_solve_lane(int n, int R, const gvi_real *m, const gvi_re
                                    gvi_real *z)
 {
     const size_t N = (size_t)n, S = (size_t)R;
-    for (size_t i = 0; i < N; ++i) {
+    GVI__LOOP(GCC unroll 2) for (size_t i = 0; i < N; ++i) {
         gvi__lane rest = GVI__LOAD(from + i*S);
-        for (size_t j = 0; j < i; ++j) rest -= GVI__LOAD(m + (i*N + j)*S)*GVI__LOAD(z + j*S);
+        GVI__LOOP(GCC unroll 2) for (size_t j = 0; j < i; ++j)
+            rest -= GVI__LOAD(m + (i*N + j)*S)*GVI__LOAD(z + j*S);
         GVI__STORE(z + i*S) = rest;
     }
-    for (size_t i = N; i-- > 0; ) {
+    GVI__LOOP(GCC unroll 2) for (size_t i = N; i-- > 0; ) {
         gvi__lane rest = GVI__LOAD(z + i*S)*GVI__LOAD(m + (i*N + i)*S);
-        for (size_t j = i + 1; j < N; ++j) rest -= GVI__LOAD(m + (j*N + i)*S)*GVI__LOAD(z + j*S);
+        GVI__LOOP(GCC unroll 2) for (size_t j = i + 1; j < N; ++j)
+            rest -= GVI__LOAD(m + (j*N + i)*S)*GVI__LOAD(z + j*S);
         GVI__STORE(z + i*S) = rest;
     }
+}
+
+GVI__BODY void gvi__solve_lanes(int n, int R, const gvi_real *m, const gvi_real *P, gvi_real *V)
+{
+    GVI__LOOP(GCC unroll 4) for (int o = 0; o < R; o += GVI__LANES)
+        gvi__ldl_solve_lane(n, R, m + o, P + o, V + o);
 }
 
 /* Evaluates mass.points, or with `v` mass.velocity, which reads p.                           */
@@ -4800,13 +4810,16 @@ static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
     if (status != GVI_OK) return status;
     gvi__count(&st->counters.factorizations, x->count);
     if (GVI__LANES > 1 && R % 8 == 0) {
-        int sure = 1;
-        for (size_t i = 0, S = (size_t)R; i < (size_t)n*(size_t)n; ++i)
+        const gvi_real most = 1/((gvi_real)n*GVI__EPS);
+        gvi__lane sum = { 0 };
+        gvi_real all = 0;
+        for (size_t i = 0, S = (size_t)R; x->count < R && i < (size_t)n*(size_t)n; ++i)
             for (size_t k = (size_t)x->count; k < S; ++k) m[i*S + k] = m[i*S];
         for (int o = 0; o < R; o += GVI__LANES)
-            if (n == 2) sure &= gvi__ldl_factor_lane(2, R, m + o);
-            else sure &= gvi__ldl_factor_lane(n, R, m + o);
-        if (sure) return GVI_OK;
+            if (n == 2 && R == 8) sum += gvi__ldl_factor_lane(2, 8, m + o);
+            else sum += gvi__ldl_factor_lane(n, R, m + o);
+        for (int k = 0; k < GVI__LANES; ++k) all += GVI__ENTRY(sum, k);
+        if (all < most*most) return GVI_OK;
         status = gvi__evaluate_mass(st, x, NULL, NULL);
         st->counters.mass -= (unsigned long long)x->count;
         if (status != GVI_OK) return status;
@@ -4951,9 +4964,8 @@ static void gvi__velocity_rows(const gvi_stepper *st, const gvi_real *P, gvi_rea
     }
 
     if (GVI__LANES > 1 && R % 8 == 0 && in->momenta.mass) {
-        for (int o = 0; o < R; o += GVI__LANES)
-            if (n == 2) gvi__ldl_solve_lane(2, R, in->momenta.mass + o, P + o, V + o);
-            else gvi__ldl_solve_lane(n, R, in->momenta.mass + o, P + o, V + o);
+        if (n == 2 && R == 8) gvi__solve_lanes(2, 8, in->momenta.mass, P, V);
+        else gvi__solve_lanes(n, R, in->momenta.mass, P, V);
         return;
     }
 
@@ -5002,8 +5014,9 @@ static gvi_real gvi__place_between(gvi_stepper *st)
     return (gvi_real)st->r*sum;
 }
 
-// before the effects: V from dL/dv(Q, V) = P
-static gvi_status gvi__momenta_evaluate(gvi_stepper *st, gvi_points *at)
+/* Before the effects: V from dL/dv(Q, V) = P.  A new M moved V: of three and more coordinates,
+   where M(q) and F are dearer than rows, Q once more from that V, so that fewer iterations do. */
+static gvi_status gvi__momenta_evaluate(gvi_stepper *st, const gvi__origin *from, gvi_points *at)
 {
     struct gvi__private *in = &st->in;
     gvi_status status = GVI_OK;
@@ -5014,6 +5027,13 @@ static gvi_status gvi__momenta_evaluate(gvi_stepper *st, gvi_points *at)
     in->momenta.has_factor = 1;
     if (!in->desc.mass.velocity) gvi__velocity_rows(st, in->momenta.P, in->work.V);
     else if (GVI__LOOKS(st)) status = gvi__check_rows(st, at, in->work.V, GVI_FAULT_MASS);
+    const int others = (gvi__parts(in) & (GVI__IN_CLOCK | GVI__IN_CONSTRAINTS)) != 0;
+    if (st->n > 2 && in->momenta.mass && !others) {
+        const gvi__stage Q = { in->momenta.T, in->work.V, from->q, in->free.rows + st->n*in->R,
+                               in->momenta.ones, 1, in->work.Q, in->watch.scale + st->n,
+                               in->momenta.was, NULL, GVI__OF_Q, 1 };
+        in->kernel(st, &Q, 0);
+    }
     return status;
 }
 
@@ -6988,6 +7008,17 @@ GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int row, int point)
     for (int l = (int)st->in.con.first[row]; l < row; ++l)
         lost += A[(row*m + l)*C]*A[(l*m + row)*C];
     return lost*A[(row*m + row)*C];
+}
+
+/* Under rows that roll, a P or V that is nothing but rounding is in every D: does another row still
+   fall to a quarter, above its last places?                                                   */
+GVI__CALLED int gvi__a_row_falls(const gvi_stepper *st)
+{
+    const gvi_real *change = st->in.watch.change, *before = st->in.watch.before,
+                   place = GVI__PLACE*GVI__EPS;
+    for (int row = 0; row < st->in.stages*st->n; ++row)
+        if (change[row] > place*place && change[row] < before[row]/16) return 1;
+    return 0;
 }
 
 /* What constraints add to the floor of coordinate i, whatever its amplitude, as a length: h^2/m
@@ -9701,7 +9732,6 @@ GVI__COLD gvi_status gvi__place_chosen(struct gvi__private *in, int order, gvi_f
 #else
         wrong = gvi__wrong_in_resolution(d, order);
         in->desc.resolution = gvi__larger(d->resolution, GVI__EPS);
-        if (!(d->tolerance > 0)) in->desc.tolerance = in->desc.resolution*(GVI__ENOUGH/GVI__EPS);
 #endif
     }
 
@@ -9886,7 +9916,7 @@ static gvi_status gvi__place_predict(gvi_stepper *st, const gvi__origin *from, g
 static gvi_status gvi__place_evaluate(gvi_stepper *st, const gvi__origin *from, gvi_points *at)
 {
     gvi_status status = GVI_OK;
-    GVI__MOMENTA(status = gvi__momenta_evaluate(st, at))
+    GVI__MOMENTA(status = gvi__momenta_evaluate(st, from, at))
     if (status != GVI_OK) return status;
     GVI__LAGRANGIAN(
         at->dldv = st->in.lagrangian.A;
@@ -9904,10 +9934,11 @@ static int gvi__place_holds(const gvi_stepper *st)
     return 0;
 }
 
-// is there more than the rows show?
+// is there more than D shows?
 static int gvi__place_moves(const gvi_stepper *st)
 {
     GVI__MOMENTA(if (st->in.momenta.moves) return 1)
+    GVI__CONSTRAINTS_ON(if (gvi__rolls(st)) return gvi__a_row_falls(st))
     return 0;
 }
 

@@ -2,7 +2,7 @@
 
 .PHONY: headers-quick headers symbols chapters docs-check reference bound float instructions prices usable languages boards sanitize sanitized any_processor \
         ensemble deps-ensemble embedded-page tolerances firmware deps-firmware fuzz fuzz-short fuzz-rolling fuzz-rolling-short fuzz-contact fuzz-contact-short size stats compare everywhere deps-everywhere \
-        cost-dial cost-rebound cost-horizon cost-constraints cost-rolling cost-contact kicks points from-l typed mycost cost-embedded hard theorems mutants coverage covered
+        cost-dial cost-rebound cost-horizon cost-constraints cost-rolling cost-contact kicks points from-l typed mycost cost-embedded hard theorems mutants ablate coverage covered
 
 ## header       build/gvi.h without chapters: make header WITHOUT="NEWTON DIAL"; CORE=1: none of them (unifdef)
 .PHONY: header header-sizes deps-header
@@ -66,6 +66,25 @@ prices: | $(FIRST)
 	$(STEP) $@ sh tests/tools/instructions.sh $(BUILD) --prices
 chapters bound float instructions ensemble usable languages boards firmware: | $(FIRST)
 	$(STEP) $@ sh tests/tools/$@.sh $(BUILD) $(RECORD)
+
+#: everyday     each scene of tests/everyday written in each way, in all types: the same motion, status and cost (two minutes of one core)
+#: everyday-drawn scenes and ways drawn anew for three seconds; SEED=5: those again
+EVERYDAY = $(addprefix $(BUILD)/everyday/,double float long)
+everyday: $(EVERYDAY)
+	$(STEP) $@ sh -c 'bad=0; for i; do "$$i" || bad=1; done; exit $$bad' - $^
+everyday-drawn: $(BUILD)/everyday/double
+	$(STEP) $@ $< draw 3 $(SEED)
+$(EVERYDAY): private CFLAGS = -O1
+REAL_OF = '-DGVI_REAL=$(if $(findstring long,$*),long double,$*)'
+HAS_CXX = $(shell command -v $(CXX) 2>/dev/null)
+$(EVERYDAY): $(BUILD)/everyday/%: tests/everyday/everyday.c $(BUILD)/everyday/typed-%.o $(BUILD)/gvi-%.o
+	$(Q)$(COMPILE) $(REAL_OF) -DGVI_IMPLEMENTED $(if $(HAS_CXX),,-DWITHOUT_CXX) $(TESTFLAGS) $< $(filter %.o,$^) -o $@ $(LDLIBS)
+# C and, where it is there, C++ in one object
+$(BUILD)/everyday/typed-%.o: tests/everyday/typed.c tests/everyday/typed.cpp tests/everyday/typed.h examples/tools/lagrangian.h gvi.h
+	@mkdir -p $(@D)
+	$(Q)$(CC) -std=c99 $(FLAGS) $(TESTFLAGS) -O1 $(REAL_OF) -c $< -o $@.c.o
+	$(Q)$(if $(HAS_CXX),$(CXX) -std=c++11 $(FLAGS) $(TESTFLAGS) -O1 $(REAL_OF) -c tests/everyday/typed.cpp -o $@.cpp.o)
+	$(Q)$(LD) -r $@.c.o $(if $(HAS_CXX),$@.cpp.o) -o $@
 
 #: sanitize     tests and examples under the address and undefined behaviour sanitizers
 # By clang where there is one: it alone sees arithmetic on NULL.
@@ -275,6 +294,10 @@ tolerances: | $(FIRST)
 #: mutants      slips put into gvi.h one by one: which of them no test sees (Python; twenty minutes of one core); K="23 59": these alone
 mutants: | $(FIRST)
 	$(Q)mkdir -p $(BUILD) && python3 tests/tools/mutants.py $(BUILD) $(K)
+
+#: ablate       each condition of judgement taken out alone, and which test misses it (Python; an hour of one core); K="3 7": these alone
+ablate: | $(FIRST)
+	$(Q)mkdir -p $(BUILD) && python3 tests/tools/ablate.py $(BUILD) $(K)
 
 # -- hard cases and theorems, measured
 

@@ -203,20 +203,6 @@ TEST(a_step_too_long_for_rattle_finds_no_solution)
     }
 }
 
-TEST(a_run_can_be_run_back)
-{
-    for (int id = 0; id < LINKAGES; ++id) {
-        if (id == FRICTION) continue;             // which forgets
-        const linkage a = make_linkage((linkage_id)id);
-        const gvi_desc desc = linkage_desc(&a, 6);
-        gvi_stepper st;
-        assert_ok(set_up(&st, &a, &desc));
-        for (int k = 0; k < 40; ++k) assert_ok(gvi_step(&st, (real)0.05L));
-        for (int k = 0; k < 40; ++k) assert_ok(gvi_step(&st, -(real)0.05L));
-        for (int i = 0; i < a.n; ++i) assert_close(st.q[i], a.q[i], 100*EPS);
-    }
-}
-
 /* g and the hidden constraint stay at rounding, energy within a random walk */
 TEST(g_and_G_v_stay_at_rounding)
 {

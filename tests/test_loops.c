@@ -364,40 +364,6 @@ TEST(three_cranks_with_a_plate_turn)
     assert_true(turned > trials - 2);
 }
 
-/* Three atoms, each pair at a fixed distance, the middle one `height` off the line of the others: the third row is all but
-   the sum of the first two.  They turn as one body. */
-static int trimer(const gvi_points *x, void *user)
-{
-    const real *length = (const real *)user;
-    rod(x, 0, 1, 0, length[0], 0, 0);
-    rod(x, 1, 2, 1, length[0], 0, 0);
-    rod(x, 2, 2, 0, length[1], 0, 0);
-    return 0;
-}
-
-TEST(a_trimer_all_but_straight_turns)
-{
-    const real masses[] = { 1, 1, R(0.001), R(0.001), 1, 1 };
-    for (int light = 0; light < 2; ++light)
-        for (int degree = 1; degree <= 8; degree *= 2)
-            for (real d = R(0.01); d > (KIND == 1 ? R(0.001) : R(5e-6)); d /= 10) {
-                const real height = sqrt(d), half = sqrt(1 - d);
-                const real q[] = { -half, 0, 0, height, half, 0 }, v[] = { 0, -half, -height, 0, 0, half };
-                real length[] = { 1, 2*half }, E[2], middle;
-                const gvi_effect scene[] = { { .kind = GVI_CONSTRAINT, .points = trimer, .rows = 3, .user = length } };
-                const gvi_desc desc = { .n = 6, .degree = degree, .effects = scene, .effect_count = 1,
-                                        .mass = { .kind = light ? GVI_MASS_DIAGONAL : GVI_MASS_UNIT, .matrix = light ? masses : NULL } };
-                gvi_stepper st;
-                assert_ok(set_up(&st, &desc, q, v));
-                assert_ok(gvi_energy(&st, E));
-                for (int k = 0; k < 200; ++k) assert_ok(gvi_step(&st, R(0.05)));
-                assert_ok(gvi_energy(&st, E + 1));
-                assert_close(E[1], E[0], 16*EPS*E[0]);
-                middle = hypot(st.q[2] - (st.q[0] + st.q[4])/2, st.q[3] - (st.q[1] + st.q[5])/2);
-                assert_close(middle, height, 64*EPS/height);      // rounding of the lengths
-            }
-}
-
 GVI_EACH(weight, 4, f, value)
 {
     x->f[1] -= 1;

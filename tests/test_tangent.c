@@ -204,8 +204,7 @@ TEST(a_step_with_its_derivative_is_symplectic)
 
 TEST(so_is_a_run_by_the_dial)
 {
-    const scene kepler = { "Kepler", { .n = N, .effects = of_kepler, .effect_count = 1, .resolution = KIND == 1 ? R(1e-4) : R(1e-9),
-                                       .tolerance = EPS/65536 },          // else resolution/65536 of each step is left
+    const scene kepler = { "Kepler", { .n = N, .effects = of_kepler, .effect_count = 1, .resolution = KIND == 1 ? R(1e-4) : R(1e-9) },
                            { attraction_product }, 0, GVI_POSITIONS };
     tangent T;
     real M[2*N][2*N], most, q[] = { R(0.5), 0 }, p[] = { 0, R(1.75) };

@@ -1,0 +1,89 @@
+/* known.h - faults that are known: what is refused rightly, and what is not mended
+
+   A fault is known if the texts of a row stand in its scene, its way, its degree, rule and length, and in what is said of it.  In a
+   run of everything, more of a row than `most` is a failure; so is none, since then the row has to go.  Of what is not
+   mended, docs/hard-cases.md has the reason.                                          */
+#ifndef EVERYDAY_KNOWN_H
+#define EVERYDAY_KNOWN_H
+
+enum { REFUSED, WRONG, DEAR, UNLIKE, FAULTS };
+typedef struct known {
+    const char *scene, *way, *how, *said;
+    int fault, right;
+    long most[3];                       /* float, double, long double                                      */
+    const char *reason;
+    long seen;
+} known;
+
+#define NEWTON_AT_REST "Newton's method and gvi_velocity: d2L/dv2 by differences from rest, beside a term A.v"
+#define LEGENDRE "gvi_velocity from v = 0 where p is not 0, or by terms of a mass alone"
+#define NEAR_0 "a row of constraints whose own terms vanish"
+#define NEWTON_FLOOR "Newton's method goes on where nothing but rounding is left"
+#define AT_REST_ON_ROWS "a start at rest on rows that move: g's rate is judged by the kinetic energy, which is 0"
+#define CLOCK_FLOOR "a clock's rounding, far from the origin"
+#define EXACT_0 "rows that are exactly 0 in one frame take two iterations less"
+#define DIAL_FLOOR "by the dial: rounding of p beside A taken for the curve's"
+
+static known known_faults[] = {
+    { "three bodies, restricted, at rest", "", "h 0.125", "no solution", REFUSED, 1, { 0, 1, 0 }, "falls into a primary within four such steps", 0 },
+    { "three bodies, restricted, at rest", "plain", "degree 3 gauss", "no solution", REFUSED, 1, { 1, 1, 1 }, "falls into a primary", 0 },
+    { "three bodies, restricted", "", "", "no solution", REFUSED, 0, { 3, 0, 0 }, NEWTON_AT_REST, 0 },
+    { "", "", "", "has no mass", REFUSED, 0, { 110, 108, 47 }, NEWTON_AT_REST, 0 },
+    { "", "", "", "no velocity found", REFUSED, 0, { 9, 18, 7 }, LEGENDRE, 0 },
+    { "", "starts at 0", "", "no solution", REFUSED, 0, { 11, 21, 5 }, NEAR_0, 0 },
+    { "parallelogram", "starts at 0", "", "as accurate", REFUSED, 0, { 0, 1, 0 }, NEAR_0, 0 },
+    { "", "starts at 0", "", "", DEAR, 0, { 15, 19, 8 }, NEAR_0, 0 },
+    { "", "speed, starts at rest", "", "not on a constraint", REFUSED, 0, { 0, 15, 10 }, AT_REST_ON_ROWS, 0 },
+    { "with a clock", "origin", "", "no solution", REFUSED, 0, { 4, 8, 2 }, CLOCK_FLOOR, 0 },
+    { "", "", "", "formulation 5", DEAR, 0, { 21, 127, 61 }, NEWTON_FLOOR, 0 },
+    { "polar", "", "", "no solution", REFUSED, 0, { 4, 4, 2 }, NEWTON_AT_REST, 0 },
+    { "relativistic", "", "", "no solution", REFUSED, 0, { 4, 4, 4 }, LEGENDRE, 0 },
+    { "", "speed, starts at rest", "", "no solution", REFUSED, 0, { 8, 5, 1 }, LEGENDRE, 0 },
+    { "", "all as terms", "", "no solution", REFUSED, 0, { 3, 1, 0 }, LEGENDRE, 0 },
+    { "charge on a rod", "there and back", "", "no solution", REFUSED, 0, { 0, 1, 2 }, "Newton's floor under a row and a term A.v", 0 },
+    { "", "", "dial", "never ends", REFUSED, 0, { 107, 1, 0 }, DIAL_FLOOR, 0 },
+    { "", "", "dial", "as accurate", REFUSED, 0, { 12, 0, 0 }, DIAL_FLOOR, 0 },
+    { "", "", "dial", "steps, the best", DEAR, 0, { 74, 4, 3 }, DIAL_FLOOR, 0 },
+    { "", "", "", "formulation 2", DEAR, 0, { 31, 18, 7 }, EXACT_0, 0 },
+    { "", "", "", "formulation 3", DEAR, 0, { 2, 5, 2 }, EXACT_0, 0 },
+    { "", "gauge", "", "no solution", REFUSED, 0, { 2, 0, 0 }, LEGENDRE, 0 },
+    { "", "mass as term", "", "no solution", REFUSED, 0, { 3, 0, 0 }, LEGENDRE, 0 },
+    { "", "pinned", "", "no solution", REFUSED, 0, { 2, 0, 0 }, NEWTON_AT_REST, 0 },
+    { "", "drawn", "", "formulation 4", DEAR, 0, { 0, 0, 0 }, "the fixed point of momenta goes on where nothing but rounding is left", 0 },
+    { "charge and spring, typed", "", "", "no solution", REFUSED, 0, { 2, 2, 0 }, NEWTON_AT_REST, 0 },
+    { "charge", "drawn", "", "no solution", REFUSED, 0, { 0, 0, 0 }, NEWTON_AT_REST, 0 },
+    { "turning table", "drawn", "", "no solution", REFUSED, 0, { 0, 0, 0 }, NEWTON_AT_REST, 0 },
+    { "loudspeaker", "drawn", "", "no solution", REFUSED, 0, { 0, 0, 0 }, LEGENDRE, 0 },
+    { "fourth power", "drawn", "", "no solution", REFUSED, 0, { 0, 0, 0 }, LEGENDRE, 0 },
+    { "heavy top", "drawn", "", "no solution", REFUSED, 0, { 0, 0, 0 }, NEWTON_FLOOR, 0 },
+    { "relativistic", "drawn", "", "gave NaN", REFUSED, 0, { 0, 0, 0 }, LEGENDRE, 0 },
+    { "charge", "measures", "", "", UNLIKE, 0, { 5, 7, 0 }, "contraction and resolution of what is rounding, beside a term A.v", 0 },
+};
+
+static long most_of(const known *k) { return k->most[KIND - 1]; }
+
+static known *known_fault(const char *of, const char *by, const char *how, const char *said, int fault)
+{
+    for (int k = 0; k < COUNT(known_faults); ++k) {
+        known *a = known_faults + k;
+        if (a->fault == fault && strstr(of, a->scene) && strstr(by, a->way) && strstr(how, a->how) && strstr(said, a->said)) return a;
+    }
+    return NULL;
+}
+
+/* How many rows are wrong themselves */
+static long print_known(void)
+{
+    long wrong = 0;
+    for (int k = 0; k < COUNT(known_faults); ++k) {
+        const known *a = known_faults + k;
+        const int bad = a->seen > most_of(a) || (most_of(a) && !a->seen);
+        wrong += bad;
+        if (!a->seen && !bad) continue;
+        printf("%s %4ld of %4ld: %s, %s, %s, \"%s\": %s\n", bad ? "FAILED" : a->right ? "right " : "known ", a->seen, most_of(a), a->scene, a->way,
+               a->how, a->said, a->reason);
+    }
+    return wrong;
+}
+
+#endif

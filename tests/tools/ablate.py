@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+"""ablate.py BUILD [K ...]: each condition of judgement of gvi.h taken out alone, and what notices: the tests near it, else
+everyday scenes.  A condition that nobody misses has to go.  In parts: K, the numbers of those to be run; a quarter of an
+hour of one core each ten.  --texts: looks for the texts alone; one that does not stand in gvi.h once is a failure."""
+import os, subprocess, sys
+
+CONDITIONS = [   # what it is, the tests near it, what stands in gvi.h and what then stands there
+    ('the floor: what constraints add, rounding of g', 'convergence constraints constraints_newton loops rolling body resolution',
+     [('if (i == 0 && moves) gvi__constraints_moved(st, in->con.W);', 'if (i == 0) gvi__zero((size_t)(st->n*in->con.C), in->con.W);')]),
+    ('the floor: not while a row falls', 'rolling body uncoupled constraints loops',
+     [('if (change[row] > place*place && change[row] < before[row]/16) return 0;', '(void)change, (void)before, (void)place, (void)row;')]),
+    ('the floor: units anew after an overshoot', 'uncoupled regressions jumps convergence',
+     [('p->rescale = D > GVI__FAR*GVI__FAR || gvi__is_poor(p);', 'p->rescale = 0;')]),
+    ('the floor: does the amplitude fall?', 'uncoupled regressions jumps convergence',
+     [('p->poor = excess > 1 && excess > p->excess/2 ? p->poor + poor : 0;', 'p->poor = excess > 1 ? p->poor + poor : 0;')]),
+    ('slow: errors grew first', 'newton regressions jumps convergence',
+     [('slow ? GVI__DIVERGES', '0 ? GVI__DIVERGES')]),
+    ('Newton: noisy callbacks, a nearly singular matrix', 'newton boundary jumps constraints_newton',
+     [('|| (noisy && p->idle > 2);', '; (void)noisy;')]),
+    ('of rows that depend on each other the last is left out', 'constraints constraints_newton loops rolling resolution',
+     [('spare = gvi__spare(st, S, i, was, A);', 'spare = i, (void)gvi__spare;')]),
+    ('near its root g is taken for linear', 'constraints constraints_newton loops rolling resolution',
+     [('in->con.linear = in->con.made > 0;', 'in->con.linear = 0;'), ('    st->in.con.linear |=\n        GVI__DIG', '    st->in.con.linear |= 0 &&\n        GVI__DIG')]),
+    ('RATTLE ends where g is rounding', 'constraints constraints_newton loops rolling resolution',
+     [('const int rounding = k > 0 && !gvi__beyond_rounding', 'const int rounding = 0 && k > 0 && !gvi__beyond_rounding')]),
+    ('off a constraint is measured by the move that it takes', 'constraints constraints_newton loops rolling resolution',
+     [('for (int k = 0; k < 34 && refused < 0; ++k) {', 'if (refused < 0) refused = off;\n    for (int k = 0; k < 34 && refused < 0; ++k) {')]),
+    ('rows that were nearly one at the start may stay so', 'constraints constraints_newton loops rolling resolution',
+     [('st->in.con.near_start = most;', 'st->in.con.near_start = 0;')]),
+    ('a row is judged earlier where a step failed', 'constraints constraints_newton loops rolling resolution',
+     [('if (*start != GVI_OK) st->in.con.margin = GVI__FADES;', '')]),
+    ('what ends of steps were off by is kept', 'constraints constraints_newton loops rolling resolution',
+     [('noise[a] = gvi__larger(GVI_ABS(st->in.con.g[a]), before);', 'noise[a] = 0*before;')]),
+    ('gvi_project: slow progress', 'constraints constraints_newton loops rolling resolution',
+     [('slow = !(size < before/64);', 'slow = 0;')]),
+    ("the end of Newton's step: has the rank turned?", 'constraints constraints_newton loops rolling resolution',
+     [('for (int ej = 0; ej < st->s*m; ++ej) {\n        const int e = ej/m', 'for (int ej = 0; ej < 0*st->s*m; ++ej) {\n        const int e = ej/m')]),
+    ('rank is judged before the resolution', 'constraints constraints_newton loops rolling resolution',
+     [('if (status == GVI_E_RESOLUTION && gvi__check_rank', 'if (0 && status == GVI_E_RESOLUTION && gvi__check_rank')]),
+    ('rank is judged in a step', 'constraints constraints_newton loops rolling resolution',
+     [('if (status == GVI_OK) status = gvi__check_rank(st, start ? 0 : in->con.margin);', 'if (status == GVI_OK && start) status = gvi__check_rank(st, 0);')]),
+    ('gvi_project: part of a change', 'constraints constraints_newton loops rolling resolution',
+     [('if (change > before && share > (gvi_real)0.02) share /= 2;', '')]),
+    ('rolling: rounding of positions', 'constraints constraints_newton loops rolling resolution',
+     [('rounded = st->formulation != GVI_NEWTON ? n : 0;', 'rounded = 0;')]),
+    ('a Jacobian that leaves rows empty', 'constraints constraints_newton loops rolling resolution check api',
+     [('if (row >= 0) {\n            gvi__report_row(st, GVI_E_ARGUMENT, row', 'if (0 && row >= 0) {\n            gvi__report_row(st, GVI_E_ARGUMENT, row')]),
+    ('units of the multipliers', 'constraints_newton newton loops constraints jumps boundary',
+     [('if (diagonal > 0 && column*GVI_SQRT(GVI__EPS) > diagonal)', 'if (0)')]),
+    ('changes that make the residual larger are halved', 'constraints_newton newton loops constraints jumps boundary',
+     [('if (J->halves && p->halves >= 0 &&', 'if (0 && J->halves && p->halves >= 0 &&')]),
+    ('a branch is followed back', 'constraints_newton newton loops constraints jumps boundary',
+     [('J.halves = 0;\n        status = gvi__newton_connected(st, from, &J);', 'J.halves = 0; (void)gvi__newton_connected;')]),
+    ('the sign of the determinant', 'constraints_newton newton loops constraints jumps boundary',
+     [('|| gvi__orientation(&J, all) < 0)) {', '|| 0)) {'), ('&& gvi__orientation(&K, all) == sign;', '&& sign != 5;')]),
+    ('the old matrix is tried again', 'constraints_newton newton loops constraints jumps boundary',
+     [('if (!old || status != GVI_OK || !(in->newton.bend > far)) break;', 'break;')]),
+    ('a difference from rest', 'constraints_newton newton loops constraints jumps boundary',
+     [('return push > most && (by_v || !(most > GVI__MIN/GVI__EPS)) ? push : most;', 'return most;')]),
+    ('is d2L/dv2 regular?', 'constraints_newton newton loops constraints jumps boundary',
+     [('gvi_status status = gvi__check_regular(st);\n    if (status == GVI_OK) status = gvi__jacobian_exact', 'gvi_status status = GVI_OK; (void)gvi__check_regular;\n    if (status == GVI_OK) status = gvi__jacobian_exact')]),
+    ('one ratio by an old matrix may be luck', 'constraints_newton newton loops constraints jumps boundary',
+     [('|| change*other <= enough;', '|| 1; (void)other;')]),
+    ('stiff: the highest modes as they are', 'resolution loops constraints',
+     [('if (stiff) return high;', '')]),
+    ('a length that failed is barred', 'resolution loops constraints',
+     [('if (dial->wait > 0 && up > 0)', 'if (0)')]),
+    ("shorter steps before Newton's method", 'resolution loops constraints',
+     [('if (st->in.dial.put_off && status == GVI_E_CONVERGENCE) return status;', '')]),
+    ('d2L/dv2 from rest', 'lagrangian mass convergence newton jumps regressions identities uncoupled oracle why constraints_newton',
+     [('} else if (rests && push > 0 && moved > 16*push) {', '} else if (0) {')]),
+    ('d2L/dv2 beside a large p', 'lagrangian mass convergence newton jumps regressions identities uncoupled oracle why constraints_newton',
+     [('} else if (moved < root*GVI_ABS(base[j])/2) {', '} else if (0) {')]),
+    ('one ratio of the fixed point may be luck', 'uncoupled regressions jumps convergence hostile newton tolerance domains resolution constraints',
+     [('if (!(D*other <= limit)) return 0;', '')]),
+    ("halfway into a callback's domain", 'uncoupled regressions jumps convergence hostile newton tolerance domains resolution constraints',
+     [('&& shorter++ < GVI__NEARER) {', '&& shorter++ < 0) {')]),
+]
+
+
+def run(command, seconds=600):
+    try:
+        return subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=seconds).returncode
+    except subprocess.TimeoutExpired:
+        return 1
+
+
+def main(build, arguments):
+    text, cc = open("gvi.h").read(), os.environ.get("CC", "cc")
+    lost = [name for name, _, edits in CONDITIONS if any(text.count(old) != 1 for old, _ in edits)]
+    for name in lost:
+        print("FAILED: not once in gvi.h: " + name)
+    if "--texts" in arguments:
+        return print("ablate: %d of %d conditions stand in gvi.h" % (len(CONDITIONS) - len(lost), len(CONDITIONS))) or bool(lost)
+
+    room, missed = os.path.join(build, "ablate"), 0
+    os.makedirs(room, exist_ok=True)
+    flags = [cc, "-std=c99", "-O1", "-w", "-ffp-contract=off", "-Itests", "-Iexamples"]
+    alone = [int(k) for k in arguments if k.isdigit()]
+    for k, (name, tests, edits) in enumerate(CONDITIONS):
+        if name in lost or (alone and k not in alone):
+            continue
+        header = text
+        for old, new in edits:
+            header = header.replace(old, new)
+        open(room + "/gvi.h", "w").write(header)
+
+        noticed, made = [], {}
+        for t in tests.split():
+            source = "tests/test_%s.c" % t
+            real = "long double" if "define GVI_REAL long double" in open(source).read() else "double"
+            library = made.setdefault(real, "%s/%s.o" % (room, real.split()[0]))
+            if not os.path.exists(library) or os.path.getmtime(library) < os.path.getmtime(room + "/gvi.h"):
+                if run(flags + ["-DGVI_REAL=" + real, "-I" + room, "-c", "tests/compile/implementation.c", "-o", library]):
+                    return print("FAILED: does not compile without: " + name) or 1
+            objects = "%s/%s.o" % (room, t)
+            if not os.path.exists(objects) and run(flags + ["-I.", "-DGVI_IMPLEMENTED", "-c", source, "-o", objects]):
+                return print("FAILED: test_%s does not compile" % t) or 1
+            run([cc, objects, library, "-o", room + "/test", "-lcmocka", "-lm"])
+            if run([room + "/test"]):
+                noticed.append("test_" + t)
+        if not noticed:
+            if run(flags + ["-DGVI_IMPLEMENTED", "-DWITHOUT_CXX", "-I.", "tests/everyday/everyday.c", "tests/everyday/typed.c",
+                            made.setdefault("double", room + "/double.o"), "-o", room + "/everyday", "-lm"]):
+                return print("FAILED: everyday does not compile") or 1
+            if run([room + "/everyday"]):
+                noticed.append("everyday")
+        missed += not noticed
+        print("%2d %-58s %s" % (k, name, " ".join(noticed) or "NOBODY NOTICES"), flush=True)
+    print("ablate: %d conditions that nobody misses" % missed)
+    return missed > 0 or bool(lost)
+
+
+sys.exit(main(sys.argv[1], sys.argv[2:]))
