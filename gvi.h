@@ -7004,17 +7004,6 @@ GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate
                                                    in->con.last + i*in->con.C + 1);
 }
 
-// what the pivot of a row has lost at a point, in units of what is left of it
-GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int row, int point)
-{
-    const int m = st->in.con.m, C = st->in.con.C;
-    const gvi_real *A = st->in.con.gram + point;
-    gvi_real lost = 0;
-    for (int l = (int)st->in.con.first[row]; l < row; ++l)
-        lost += A[(row*m + l)*C]*A[(l*m + row)*C];
-    return lost*A[(row*m + row)*C];
-}
-
 /* Under rows that roll, a P or V that is nothing but rounding is in every D: does another row still
    fall to a quarter, above its last places?                                                   */
 GVI__CALLED int gvi__a_row_falls(const gvi_stepper *st)
@@ -8259,6 +8248,17 @@ static void gvi__held_guess(const gvi_stepper *st, gvi_real *y)
 static gvi_status gvi__held_begin(gvi_stepper *st, const gvi__origin *from, gvi_real *v)
 {
     return gvi__constraints_at(st, from->t, from->q, NULL, v, st->in.con.drops);
+}
+
+// what the pivot of a row has lost at a point, in units of what is left of it
+GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int row, int point)
+{
+    const int m = st->in.con.m, C = st->in.con.C;
+    const gvi_real *A = st->in.con.gram + point;
+    gvi_real lost = 0;
+    for (int l = (int)st->in.con.first[row]; l < row; ++l)
+        lost += A[(row*m + l)*C]*A[(l*m + row)*C];
+    return lost*A[(row*m + row)*C];
 }
 
 /* Did the rank of G change between two points of the step?  What those before row j leave of it is

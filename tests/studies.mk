@@ -4,6 +4,35 @@
         ensemble deps-ensemble embedded-page tolerances firmware deps-firmware fuzz fuzz-short fuzz-rolling fuzz-rolling-short fuzz-contact fuzz-contact-short size stats compare everywhere deps-everywhere \
         cost-dial cost-rebound cost-horizon cost-constraints cost-rolling cost-contact kicks points from-l typed mycost cost-embedded hard theorems mutants ablate coverage covered
 
+## header       build/gvi.h without chapters: make header WITHOUT="NEWTON DIAL"; CORE=1: none of them (unifdef)
+.PHONY: header header-sizes deps-header
+header: | $(filter deps-header,$(MAKECMDGOALS))
+	@mkdir -p $(BUILD)
+	$(Q)sh tests/tools/header.sh $(BUILD)/gvi.h $(if $(CORE),CORE,$(WITHOUT))
+
+#: header-sizes lines and bytes of headers made to order: the table of docs/embedded.md
+ROBOT = RULES LAGRANGIAN CLOCK KICKS NEWTON CONSTRAINTS DIAL EXPLAIN TEXTS
+header-sizes: | $(filter deps-header,$(MAKECMDGOALS))
+	@mkdir -p $(BUILD)/header
+	$(Q)echo '| without | lines | kB |'; echo '|---|---:|---:|'; cp gvi.h $(BUILD)/header/gvi.h
+	$(Q)for chapters in '' CONSTRAINTS NEWTON 'NEWTON CONSTRAINTS' '$(ROBOT)' CORE; do \
+	    [ -z "$$chapters" ] || sh tests/tools/header.sh $(BUILD)/header/gvi.h $$chapters >/dev/null || exit 1; \
+	    wc -lc <$(BUILD)/header/gvi.h | awk -v what="$${chapters:-nothing}" \
+	        '{ printf "| %s | %.1f thousand | %.0f |\n", what, $$1/1000, $$2/1000 }'; done
+
+#: misra        which rules of MISRA C:2012 cppcheck finds broken in the core in float, and how often (ten seconds)
+.PHONY: misra
+misra: | $(filter deps-header,$(MAKECMDGOALS))
+	@mkdir -p $(BUILD)/misra
+	$(Q)sh tests/tools/header.sh $(BUILD)/misra/gvi.h CORE >/dev/null
+	$(Q)cppcheck --addon=misra --std=c99 -I$(BUILD)/misra -DGVI_REAL=float -DGVI_STATIC -DGVI_IMPLEMENTATION \
+	    tests/compile/implementation.c 2>$(BUILD)/misra/found >/dev/null
+	$(Q)grep -o 'misra-c2012-[0-9.]*' $(BUILD)/misra/found | sed 's/.*-//' | sort -V | uniq -c | awk '{ print $$2 ": " $$1 }'
+
+#: deps-header  installs what header and misra need: unifdef, cppcheck
+deps-header: | $(filter deps deps-check,$(MAKECMDGOALS))
+	$(Q)sh tests/tools/deps.sh --header
+
 # -- steps of `make test` and `make check`; each can be run alone
 
 #: headers      gvi.h through every compiler, standard, type and linkage there is, no warning

@@ -4,7 +4,7 @@
    and what each law says of power, sums and special places. Bounds are multiples of powers of EPS:
    the same file serves float, double and long double. */
 #include "gvi_test.h"
-#include "tools/effects.h"
+#include "tools/effects_tangent.h"
 
 enum { N = 17, ROOM = 16, POINTS = 13 };
 
@@ -478,6 +478,87 @@ TEST(parameters_that_cannot_be_are_refused)
         if (i % 2) desc.mass.velocity = NULL;
         gvi_stepper st = new_stepper(&desc);
         assert_status(gvi_start(&st, 0, q + 3, (real[]){ 1, 1, 1 }), GVI_E_CALLBACK);
+    }
+}
+
+/* effects_tangent.h: blocks against differences, transposed products by l'(A d + B d') = d'A'l + d''B'l, columns by
+   parameters against differences of two runs. */
+static real tangent_memory[GVI_LENGTH(12, 4, 4)], tangent_room[TANGENT_ROOM(3, 3)];
+static const real one_mass[] = { R(1.5) };
+static struct central_gravity planet = { { 0, 1, 3 }, one_mass, R(1.25), { R(0.125), 0, R(-0.25) } };
+static struct oblateness flattening = { { 0, 1, 3 }, one_mass, R(1.25), 1, R(0.0625) };
+static struct atmosphere orbit_air = { { 0, 1, 3 }, R(0.03125), 1, R(0.75) };
+static const real orbit_q[] = { R(1.25), R(-0.5), R(0.75) }, orbit_v[] = { R(0.25), R(0.5), R(-0.375) };
+
+static void orbit_scene(gvi_effect *effect)
+{
+    effect[0] = central_gravity(&planet);
+    effect[1] = oblateness(&flattening);
+    effect[2] = atmosphere(&orbit_air);
+}
+
+TEST(products_of_gravity_j2_and_air_agree_with_differences)
+{
+    gvi_effect effect[3];
+    const real dq[] = { R(0.25), R(0.5), R(-0.75) }, dv[] = { R(-0.5), R(0.75), R(0.25) };
+    int part = -1;
+    orbit_scene(effect);
+    tangent T = { .plain = { .n = 3, .degree = 4, .effects = effect, .effect_count = 3 }, .product = EFFECTS_TANGENT_ORBIT,
+                  .directions = 1, .room = tangent_room, .room_length = COUNT(tangent_room) };
+    assert_ok(tangent_scene(&T));
+    assert_between(0, tangent_check(&T, 0, orbit_q, orbit_v, dq, dv, &part), 400*pow((real)EPS, R(0.8)));
+    planet.on.dim = 2;
+    assert_between(-1, tangent_check(&T, 0, orbit_q, orbit_v, dq, dv, &part), -1);
+    planet.on.dim = 3;
+}
+
+TEST(the_transposed_product_of_the_air_is_the_product_transposed)
+{
+    const real t = 0, d[] = { R(0.25), R(0.5), R(-0.75) }, dv[] = { R(-0.5), R(0.75), R(0.25) }, l[] = { 1, R(-0.25), R(0.5) };
+    real f[3] = { 0 }, back[3] = { 0 }, by_v[3] = { 0 }, one = 0, other = 0;
+    const gvi_points x = { .n = 3, .count = 1, .stride = 1, .t = &t, .q = orbit_q, .v = orbit_v };
+    gvi_points along = x, costate = x;
+    along.q = d, along.v = dv, along.f = f;
+    costate.q = l, costate.f = back, costate.dldv = by_v;
+    assert_int_equal(atmosphere_product(&x, &along, -1, &orbit_air), 0);
+    assert_int_equal(atmosphere_transposed(&x, &costate, -1, &orbit_air), 0);
+    for (int i = 0; i < 3; ++i) {
+        one += l[i]*f[i];
+        other += d[i]*back[i] + dv[i]*by_v[i];
+    }
+    assert_close(one, other, 8*EPS);
+    assert_true(fabs(one) > R(0.001));
+}
+
+static real *orbit_parameter(int k) { return k == 0 ? &planet.gm : k == 1 ? &flattening.j2 : &orbit_air.c; }
+
+TEST(columns_by_gm_j2_and_c_are_derivatives_of_the_run)
+{
+    gvi_effect effect[3];
+    const real D = pow((real)EPS, R(0.2))/8, factor[] = { 1, -1, 2, -2 }, factor_of[] = { 8, -8, -1, 1 };
+    gvi_stepper st;
+    orbit_scene(effect);
+    tangent T = { .plain = { .n = 3, .degree = 4, .effects = effect, .effect_count = 3 }, .product = EFFECTS_TANGENT_ORBIT,
+                  .parameters = 3, .room = tangent_room, .room_length = COUNT(tangent_room) };
+    assert_ok(tangent_scene(&T));
+    assert_ok(gvi_init(&st, &T.desc, tangent_memory, sizeof tangent_memory));
+    assert_ok(tangent_start(&T, &st, 0, orbit_q, orbit_v, NULL, NULL));
+    for (int k = 0; k < 8; ++k) assert_ok(gvi_step(&st, R(0.125)));
+
+    for (int j = 0; j < 3; ++j) {
+        real dq[3], dp[3], slope[3] = { 0 }, *theta = orbit_parameter(j), was = *theta, d = D*was;
+        tangent_column(&T, &st, j, dq, dp);
+        for (int z = 0; z < 4; ++z) {
+            static real memory[GVI_LENGTH(3, 4, 4)];
+            gvi_stepper plain;
+            *theta = was + factor[z]*d;
+            assert_ok(gvi_init(&plain, &T.plain, memory, sizeof memory));
+            assert_ok(gvi_start(&plain, 0, orbit_q, orbit_v));
+            for (int k = 0; k < 8; ++k) assert_ok(gvi_step(&plain, R(0.125)));
+            for (int i = 0; i < 3; ++i) slope[i] += factor_of[z]*plain.q[i]/(12*d);
+        }
+        *theta = was;
+        for (int i = 0; i < 3; ++i) assert_close(dq[i], slope[i], 400*pow((real)EPS, R(0.75)));
     }
 }
 

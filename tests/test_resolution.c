@@ -757,6 +757,32 @@ TEST(no_step_of_random_scenes_is_worse_than_100_times_the_limit)
     assert_true(steps == 8000 && refused < 4000);
 }
 
+/* A force with noise, as from a table: the modes that measure a step show the noise.  docs/guide.md has this figure. */
+GVI_EACH(noisy, 1, f)
+{
+    const real *size = user, q = x->q[0], s = sin(2*R(1e7)*q)*43758;
+    x->f[0] -= q + q*q*q + *size*(2*(s - floor(s)) - 1);
+}
+
+static int steps_with_noise(real noise, real tolerance)
+{
+    const gvi_effect spring = { .points = noisy, .user = &noise };
+    const gvi_desc desc = { .n = 1, .effects = &spring, .effect_count = 1, .resolution = R(1e-8), .tolerance = tolerance };
+    const real q = 1, v = 0;
+    gvi_stepper st;
+    assert_ok(gvi_init(&st, &desc, room, sizeof room));
+    assert_ok(gvi_start(&st, 0, &q, &v));
+    while (st.t < 100) assert_ok(gvi_advance(&st, 100));
+    return (int)st.counters.steps;
+}
+
+TEST(in_a_noisy_force_a_tolerance_above_the_noise_keeps_the_steps_long)
+{
+    if (KIND == 1) return;                        // a dial of 1e-8 is below float's rounding
+    const int clean = steps_with_noise(0, 0), noise = steps_with_noise(R(1e-9), 0), cured = steps_with_noise(R(1e-9), R(1e-8));
+    assert_true(noise > 2*clean && cured <= clean + clean/10);
+}
+
 /* No conversion overflows (make sanitize); and a callback may be named like anything of the library's */
 GVI_EACH(point, 1, f) { x->f[0] -= x->q[0]; }
 

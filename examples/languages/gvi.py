@@ -8,6 +8,8 @@
     planet.steps(0.1, 1000)
     print(planet.t, planet.q, planet.energy())
 
+A Lagrangian is typed, and nothing else is needed: gvi.lagrangian.
+
 The first stepper compiles gvi.h with $CC (cc) into the user's cache.  The header is $GVI_H, or gvi.h beside this file, or
 two folders above it.  What the fields and functions mean is said in gvi.h; their names are the same without `gvi_`.
 x.q[i, k] is coordinate i at point k, x.mass[i, j, k], x.jacobian[row, j, k]; x.t[k] and x.value[k].  They are the library's
@@ -15,9 +17,11 @@ own memory, like q and p of a stepper: add to f with +=, write mass, g and jacob
 A callback returns nothing, or 1: "not here", and the library tries a way round.  An exception ends the step, leaves the
 state as it was, and is raised again from step().  A failure is a gvi.Error.
 """
+import ast
 import ctypes as C
 import hashlib
 import os
+import platform
 import subprocess
 
 import numpy as np
@@ -56,22 +60,36 @@ gvi_stepper = structure("gvi_stepper", [                  # what follows is the 
 gvi_discrete = structure("gvi_discrete", [(d, pointer) for d in (
     "lagrangian", "d1", "d2", "minus", "plus", "p0", "p1")] + [("negative", C.POINTER(whole)), ("guess", pointer)])
 
-def load(library=None):
-    """the library at that path, or the one made of gvi.h"""
+def beside():
+    """gvi.h: $GVI_H, or the one beside this file, or two folders above it"""
+    here = os.path.dirname(os.path.abspath(__file__))
+    places = os.environ.get("GVI_H"), here + "/gvi.h", here + "/../../gvi.h"
+    return next(h for h in places if h and (os.path.exists(h) or h == places[-1]))
+
+def made(source, *read, objects=None):
+    """a C source that includes the files it reads, compiled once by $CC (cc) into the user's cache: an object, or if there
+    are objects to link it with, a library"""
+    cc, windows = os.environ.get("CC", "cc").split(), platform.system() == "Windows"
+    key = hashlib.sha256(repr((source, cc, platform.machine(), objects)).encode())
+    for file in read:
+        with open(file, "rb") as f:
+            key.update(f.read())
+    cache = os.environ.get("XDG_CACHE_HOME") or windows and os.environ.get("LOCALAPPDATA") or os.path.expanduser("~/.cache")
+    kind = "o" if objects is None else "dll" if windows else "so"
+    name = f"{cache}/gvi/libgvi-{key.hexdigest()[:16]}.{kind}"
+    if not os.path.exists(name):
+        os.makedirs(cache + "/gvi", exist_ok=True)
+        new = f"{name}.{os.getpid()}"                      # several processes may do it at once
+        options = ["-O2", "-c" if objects is None else "-shared", *([] if windows else ["-fPIC"])]
+        options += ["-I" + os.path.dirname(file) for file in read]
+        subprocess.run([*cc, *options, *(objects or ()), "-xc", "-", "-o", new, "-lm"], input=source.encode(), check=True)
+        os.replace(new, name)
+    return name
+
+def load(library=None, source="", *read):
+    """the library at that path, or the one made of gvi.h and a source that uses it"""
     if not library:
-        here = os.path.dirname(os.path.abspath(__file__))
-        places = os.environ.get("GVI_H"), here + "/gvi.h", here + "/../../gvi.h"
-        header = next(h for h in places if h and (os.path.exists(h) or h == places[-1]))
-        cc = os.environ.get("CC", "cc").split()
-        with open(header, "rb") as source:
-            name = hashlib.sha256(source.read() + repr((cc, os.uname().machine)).encode()).hexdigest()[:16]
-        folder = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
-        library = f"{folder}/gvi/libgvi-{name}.so"
-        if not os.path.exists(library):
-            os.makedirs(folder + "/gvi", exist_ok=True)
-            made = f"{library}.{os.getpid()}"              # several processes may do it at once
-            subprocess.run([*cc, *"-O2 -shared -fPIC -DGVI_IMPLEMENTATION -xc".split(), header, "-o", made, "-lm"], check=True)
-            os.replace(made, library)
+        library = made(source, *read, objects=[made('#define GVI_IMPLEMENTATION\n#include "gvi.h"\n', beside())])
     lib = C.CDLL(library)
     lib.gvi_size.restype = lib.gvi_stepper_size.restype = C.c_size_t
     lib.gvi_why.restype = lib.gvi_status_text.restype = lib.gvi_formulation_text.restype = text
@@ -209,6 +227,7 @@ class Stepper:
     def energy(self): return float(self.out("energy", shapes=[()]))
     def multipliers(self): return self.out("multipliers", shapes=[self.rows])
     def curve(self, tau): return self.out("curve", real(tau), shapes=[self.n]*2)
+    def curve_multipliers(self, tau): return self.out("curve_multipliers", real(tau), shapes=[self.rows])
     def state_at(self, t): return self.out("state_at", real(t), shapes=[self.n]*3)
     def action(self): return float(self.out("action", shapes=[()]))
     def why(self): return self.lib.gvi_why(self.bytes).decode()
@@ -239,6 +258,108 @@ class Stepper:
         while a < (a + b)/2 < b or b < (a + b)/2 < a:
             a, b = ((a + b)/2, b) if sign((a + b)/2) == first else (a, (a + b)/2)
         return b
+
+TYPED = """#include "gvi.h"
+#include "lagrangian.h"
+static inline number power(number x, int k) { number y = 1; while (k-- > 0) y *= x; return y; }
+%s
+size_t typed_size(void) { return sizeof(lagrangian); }
+const char *typed_text(const lagrangian *L) { return lagrangian_text(L); }
+const char *typed_init(lagrangian *L, void *user, double t, const double *q, const double *v, gvi_effect *rows, gvi_mass *mass)
+{
+    const char *wrong = lagrangian_init(L, typed_L, user, t, q, v);
+    if (wrong) return wrong;
+    *rows++ = lagrangian_effect(L);
+    *mass = lagrangian_mass(L);
+%s    return NULL;
+}
+"""
+FUNCTIONS = "sqrt cbrt exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh atan2 hypot fabs".split()
+SIGNS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.UAdd: "+", ast.USub: "-"}
+
+class InC:
+    """Python's syntax to C: q[i], v[i], t, pi, parameters, + - * / **, the functions above, `name = ...;` before the last"""
+    def __init__(self, n, parameters): self.n, self.names = n, {**parameters, "t": "t", "pi": "3.14159265358979323846"}
+
+    def body(self, text):
+        *before, last = ast.parse(text.strip() or "nothing").body
+        lines, names = [], self.names
+        self.names = dict(names)
+        for line in before:
+            if not isinstance(line, ast.Assign) or not isinstance(line.targets[0], ast.Name):
+                raise ValueError(f"{ast.unparse(line)}: before the last expression there may be `name = ...`")
+            name = line.targets[0].id
+            lines.append(f"const number local_{name} = {self.term(line.value)};")
+            self.names[name] = "local_" + name
+        if not isinstance(last, ast.Expr):
+            raise ValueError(f"{ast.unparse(last)}: the last has to be an expression")
+        value, self.names = self.term(last.value), names
+        return " ".join(lines), value
+
+    def term(self, e):
+        if isinstance(e, ast.Constant) and type(e.value) in (int, float):
+            return repr(float(e.value))                    # 1/2 is 0.5, as in Python
+        if isinstance(e, ast.Name) and e.id in self.names:
+            return self.names[e.id]
+        if isinstance(e, ast.Subscript) and isinstance(e.value, ast.Name) and e.value.id in "qv":
+            i = getattr(e.slice, "value", None)
+            if type(i) is int and 0 <= i < self.n:
+                return f"{e.value.id}[{i}]"
+            raise ValueError(f"{ast.unparse(e)}: n is {self.n}")
+        if isinstance(e, ast.BinOp) and isinstance(e.op, ast.Pow):
+            k = getattr(e.right, "value", None)
+            whole_k = type(k) is int and 0 <= k <= 64
+            return f"power({self.term(e.left)}, {k})" if whole_k else f"pow({self.term(e.left)}, {self.term(e.right)})"
+        if isinstance(e, ast.BinOp) and type(e.op) in SIGNS:
+            return f"({self.term(e.left)} {SIGNS[type(e.op)]} {self.term(e.right)})"
+        if isinstance(e, ast.UnaryOp) and type(e.op) in SIGNS:
+            return f"({SIGNS[type(e.op)]}{self.term(e.operand)})"
+        if isinstance(e, ast.Call) and isinstance(e.func, ast.Name) and e.func.id in FUNCTIONS and not e.keywords:
+            return f"{e.func.id}({', '.join(map(self.term, e.args))})"
+        raise ValueError(f"{ast.unparse(e)}: not known; there are q[i], v[i], t, pi, parameters, + - * / ** and "
+                         + " ".join(FUNCTIONS))
+
+class lagrangian(Stepper):
+    """a scene from L alone; F is Rayleigh's function, friction's f = -dF/dv; holds are g(t, q) = 0, rolls A v + a = 0
+
+        pendulum = gvi.lagrangian("v[0]**2/2 + g*cos(q[0])", n=1, g=9.81, F="0.1*v[0]**2/2")
+        pendulum.start(0, [1], [0])
+
+    Fields of gvi_desc are options, all other names parameters: those of pendulum["g"] = 3.7 may change between steps.
+    ValueError says why L is refused; .text says, after start, what it was found to be."""
+    def __init__(self, L, n, F=None, holds=(), rolls=(), **options):
+        self.options = {name: options.pop(name) for name, _ in gvi_desc._fields_ if name in options}
+        self.names, self.values = list(options), numbers(list(options.values()) or [0])
+        c, header = InC(n, {name: f"((const double *)user)[{k}]" for k, name in enumerate(options)}), beside()
+        parts, rows, folder = ["LAGRANGIAN(typed_L, %d) { %s return %s; }" % (n, *c.body(L))], "", os.path.dirname(header)
+        if F:
+            parts.append("DISSIPATION(typed_F, %d) { %s return %s; }" % (n, *c.body(F)))
+            rows += "    *rows++ = (gvi_effect){ .kind = GVI_FORCE, .points = typed_F, .user = user };\n"
+        for macro, kind, given_rows in (("HOLDS", "CONSTRAINT", holds), ("ROLLS", "NONHOLONOMIC", rolls)):
+            for k, row in enumerate([given_rows] if isinstance(given_rows, str) else given_rows):
+                parts.append("%s(typed_%s%d, %d, 1) { %s row[0] = %s; }" % (macro, macro, k, n, *c.body(row)))
+                rows += f"    *rows++ = (gvi_effect){{ .kind = GVI_{kind}, .points = typed_{macro}{k}, .user = user, .rows = 1 }};\n"
+        tools = (folder + place + "lagrangian.h" for place in ("/", "/tools/", "/gvi/", "/examples/tools/"))
+        tool = next((h for h in tools if os.path.exists(h)), None)
+        if not tool:
+            raise FileNotFoundError(f"lagrangian.h is neither beside {header} nor in a folder tools there")
+        self.lib = load(None, TYPED % ("\n".join(parts), rows), header, tool)
+        self.lib.typed_size.restype, self.lib.typed_init.restype, self.lib.typed_text.restype = C.c_size_t, text, text
+        self.error, self.views, self.size, self.count, self.rows = None, {}, n, rows.count("*rows++") + 1, rows.count(".rows = 1")
+        self.L = C.create_string_buffer(self.lib.typed_size())
+
+    def __setitem__(self, name, value): self.values[self.names.index(name)] = value
+    def __getitem__(self, name): return float(self.values[self.names.index(name)])
+
+    def start(self, t, q, v):
+        q, v = numbers(q, (self.size,)), numbers(v, (self.size,))
+        self.effects, mass = (gvi_effect*self.count)(), gvi_mass()
+        wrong = self.lib.typed_init(self.L, given(self.values), real(t), given(q), given(v), self.effects, C.byref(mass))
+        if wrong:
+            raise ValueError(wrong.decode())
+        self.text = self.lib.typed_text(self.L).decode()
+        self.open(gvi_desc(n=self.size, mass=mass, effects=self.effects, effect_count=self.count, **self.options))
+        super().start(t, q, v)
 
 def plain(name, *x, out=()):
     """gvi_`name`(*x, *out), a function without a stepper; returns `out`, or what it returns: plain("gauss", 3,

@@ -1,107 +1,86 @@
-"""lagrangian.py - a Lagrangian typed in Python, and nothing else: complex numbers carry the derivatives
+"""lagrangian.py - a Lagrangian typed in Python, and nothing else
 
-    cc -O2 -shared -fPIC -I. -Iexamples examples/languages/lagrangian.c -o libgvi_l.so -lm
-    python3 lagrangian.py ./libgvi_l.so
+    python3 lagrangian.py                (an argument: a picture of planet and moon, by matplotlib)
 
-L gets t, q and v, arrays of complex numbers: q[0] is the first coordinate at all points of a step, so that one call of
-L computes them all.  Functions are those of numpy that take complex numbers; not abs, not comparisons.
-lagrangian_init looks at L and finds out what it is, as in C.
+The text is Python's syntax; it is compiled once, derivatives included, into the user's cache.  Beside this file there
+are gvi.py, gvi.h and tools/lagrangian.h, or it is where it is in a clone.
 
 prints
 
-ok: q = 0.631257632 0.436538384
+double pendulum: ok: q = 0.631257632 0.436538384
 L is v'M(t,q)v/2 - V(t,q), energy within 1e-12: True
-refused: dL/dq[0] is 0 by numbers, -22.238 by differences: is a variable in L a double that has to be a number?
+planet with moon: 1000 days, energy within 1e-12: True
+a bead on a hoop that stands: g = 0 to rounding: True
+damped oscillator against its formula, within 1e-12: True
+refused: v[0]**2/2 - k*q[0]**2: k is missing
 """
-import ctypes as C
 import sys
 
 import numpy as np
 
 import gvi
-from gvi import pointer, real, view
 
 
-class Wanted(C.Structure):
-    _fields_ = [("x", C.POINTER(gvi.gvi_points)), ("w", pointer), ("one", C.c_int), ("times", real), ("scale", real),
-                ("least", real), ("value", pointer), ("by_q", pointer), ("by_w", pointer), ("first", C.c_int), ("end", C.c_int),
-                ("apart", C.c_int), ("along", pointer), ("by_along", pointer), ("user", C.c_void_p)]
-
-
-add_fn = C.CFUNCTYPE(None, C.POINTER(Wanted))
-STEP = 2.0**-332
-
-
-def adds(L):
-    """what lagrangian.h asks for, from a function L(t, q, v)"""
-    def add(wanted):
-        a = wanted.contents
-        x = a.x.contents
-        n, count, stride = x.n, x.count, x.stride
-        z = np.zeros((2*n, count), dtype=complex)
-        z[:n] = view(x.q, (n, count), stride)
-        if a.w:
-            z[n:] = a.times*view(a.w, (n, count), stride)
-        elif a.one >= 0:
-            z[n + a.one] = a.times
-        t = view(x.t, (count,))
-        one = np.eye(2*n)
-        directions = [(one[i], a.by_q, i*stride) for i in range(n) if a.by_q]
-        directions += [(one[n + i], a.by_w, i*a.apart) for i in range(a.first, a.end) if a.by_w]
-        directions += [(view(a.along, (2*n,)), a.by_along, 0)] if a.along else []
-        value = None
-        for direction, out, at in directions:
-            value = L(t, *np.split(z + 1j*STEP*direction[:, None], 2))
-            slope = np.imag(value)/STEP
-            slope = np.where(np.abs(slope) <= a.least*np.abs(np.real(value)), 0, slope)
-            view(out, (at + count,))[at:] += a.scale*slope
-        if a.value:
-            value = L(t, z[:n], z[n:]) if value is None else value
-            view(a.value, (count,))[:] += a.scale*np.real(value)
-    return add
-
-
-class Typed(gvi.Stepper):
-    """a stepper from L(t, q, v) alone; ValueError says why L is refused"""
-
-    def __init__(self, library, n, L, t, q, v, degree=8):
-        lib = self.lib = gvi.load(library)
-        lib.typed_size.restype = C.c_size_t
-        lib.typed_init.restype = lib.typed_text.restype = C.c_char_p
-        at = [gvi.numbers(z, (n,)) for z in (q, v)]
-        self.error, self.views, self.rows = None, {}, 0
-        self.L, self.add = C.create_string_buffer(lib.typed_size()), add_fn(self.guard(adds(L)))
-        wrong = lib.typed_init(self.L, n, self.add, real(t), *map(gvi.given, at))
-        if self.error:
-            raise self.error
-        if wrong:
-            raise ValueError(wrong.decode())
-        self.effect, mass = (gvi.gvi_effect*1)(), gvi.gvi_mass()
-        lib.typed_scene(self.L, self.effect, C.byref(mass))
-        self.open(gvi.gvi_desc(n=n, degree=degree, mass=mass, effects=self.effect, effect_count=1))
-        self.start(t, q, v)
-
-
-def pendulum(t, q, v):
-    g = 9.81
-    return v[0]**2 + v[1]**2/2 + v[0]*v[1]*np.cos(q[0] - q[1]) + 2*g*np.cos(q[0]) + g*np.cos(q[1])
-
-
-def trap(t, q, v):
-    return v[0]**2/2 + v[1]**2/2 + 31*np.cos(q[0].real)
-
-
-def main(library):
-    run = Typed(library, 2, pendulum, 0, [0.8, 0.5], [0, 0])
+def double_pendulum():
+    run = gvi.lagrangian("v[0]**2 + v[1]**2/2 + v[0]*v[1]*cos(q[0] - q[1]) + 2*g*cos(q[0]) + g*cos(q[1])", n=2, g=9.81)
+    run.start(0, [0.8, 0.5], [0, 0])
     energy = run.energy()
-    for _ in range(1600):
-        run.step(1/16)
-    print(f"{run.why()}: q = {run.q[0]:.9f} {run.q[1]:.9f}")
-    print(f"L is {run.lib.typed_text(run.L).decode()}, energy within 1e-12:", abs(run.energy() - energy) < 1e-12)
+    run.steps(1/16, 1600)
+    print(f"double pendulum: {run.why()}: q = {run.q[0]:.9f} {run.q[1]:.9f}")
+    print(f"L is {run.text}, energy within 1e-12:", abs(run.energy() - energy) < 1e-12)
+
+
+def planet_with_moon():
+    """au, days, solar masses; the sun is at the origin"""
+    run = gvi.lagrangian("""
+x = q[2] - q[0]; y = q[3] - q[1]
+M*(v[0]**2 + v[1]**2)/2 + m*(v[2]**2 + v[3]**2)/2 + k*M/hypot(q[0], q[1]) + k*m/hypot(q[2], q[3]) + k*M*m/hypot(x, y)""",
+                         n=4, k=2.9591220828559e-4, M=3.0034896e-6, m=3.69431e-8, resolution=1e-13)
+    run.start(0, [1, 0, 1.00257, 0], [0, 0.0172021, 0, 0.0172021 + 0.00058932])
+    energy, track = run.energy(), []
+    while run.t < 1000:
+        run.advance(1000)
+        track.append(run.q.copy())
+    print(f"planet with moon: {run.t:.0f} days, energy within 1e-12:", abs(run.energy()/energy - 1) < 1e-12)
+    return np.array(track)
+
+
+def hoop():
+    run = gvi.lagrangian("(v[0]**2 + v[1]**2)/2 - g*q[1]", n=2, holds="q[0]**2 + q[1]**2 - r**2", g=9.81, r=2)
+    run.start(0, [2, 0], [0, 0])
+    run.steps(0.02, 500)
+    print("a bead on a hoop that stands: g = 0 to rounding:", abs(run.q@run.q - 4) < 1e-13)
+
+
+def damped():
+    """x'' = -x - x'/5: exp(-t/10) (cos(w t) + sin(w t)/(10 w)), w^2 = 1 - 1/100"""
+    run = gvi.lagrangian("v[0]**2/2 - q[0]**2/2", n=1, F="b*v[0]**2/2", b=0.2)
+    run.start(0, [1], [0])
+    run.steps(0.25, 40)
+    w = np.sqrt(0.99)
+    exact = np.exp(-1)*(np.cos(10*w) + np.sin(10*w)/(10*w))
+    print("damped oscillator against its formula, within 1e-12:", abs(run.q[0] - exact) < 1e-12)
+
+
+def main(picture=None):
+    double_pendulum()
+    track = planet_with_moon()
+    hoop()
+    damped()
+    text = "v[0]**2/2 - k*q[0]**2"
     try:
-        Typed(library, 2, trap, 0, [0.8, 0.5], [0, 0])
+        gvi.lagrangian(text, n=1)
     except ValueError as why:
-        print("refused:", why)
+        print(f"refused: {text}: k is missing" if str(why).startswith("k:") else why)
+    if picture:
+        import matplotlib
+        matplotlib.use("Agg")
+        import matplotlib.pyplot as plt
+        far = 30*(track[:, 2:] - track[:, :2])             # the moon's distance, 30 times
+        plt.plot(*track[:, :2].T)
+        plt.plot(*(track[:, :2] + far).T)
+        plt.axis("equal")
+        plt.savefig(picture)
 
 
 if __name__ == "__main__":

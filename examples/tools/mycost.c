@@ -2,9 +2,11 @@
 
      make mycost FILE=mine.c                   the picture is build/mycost.svg
 
-   The file includes nothing of gvi.h's and defines
+   The file includes what it uses of the tools, such as "tools/effects.h", and defines
 
      LAGRANGIAN(mine, 2) { return ...; }       lagrangian.h; or static const gvi_desc mine = ...;
+                                               or static gvi_desc mine(void) { ... return desc; }, where rows
+                                               are made by functions, as those of effects.h are
      static const double mine_q[] = ..., mine_v[] = ...;     the start, at t = 0
      static const double mine_horizon = 20;    the end
      static const double mine_h = 0.1;         a step worth beginning with
@@ -17,6 +19,7 @@
 #include "gvi.h"
 #include "tools/lagrangian.h"
 #include "tools/svg.h"
+#include <stdint.h>
 #include <stdlib.h>
 #include <time.h>
 
@@ -40,6 +43,7 @@ static gvi_desc of_l(const void *function)
 }
 
 static gvi_desc of_desc(const void *desc) { return *(const gvi_desc *)desc; }
+static gvi_desc of_maker(const void *maker) { return ((gvi_desc (*)(void))(uintptr_t)maker)(); }
 
 /* To the horizon, by steps of h, or with h = 0 by the dial; q [n] there. */
 static gvi_status run(const gvi_desc *desc, double h, double *q, double *seconds)
@@ -92,7 +96,8 @@ int main(int argc, char **argv)
     static double x[DEGREES + 1][MOST], y[DEGREES + 1][MOST];
     svg_line lines[DEGREES + 1];
     int drawn = 0;
-    gvi_desc desc = _Generic(mine, lagrangian_function: of_l, default: of_desc)(&mine);
+    gvi_desc desc = _Generic(&mine, const lagrangian_function *: of_l, lagrangian_function *: of_l,
+                             gvi_desc (*)(void): of_maker, default: of_desc)((const void *)(uintptr_t)&mine);
     if (!desc.n) return 1;
     if (!(mine_h > 0 && mine_horizon > 0 && mine_horizon/mine_h <= 1e8))
         return puts("mine_h and mine_horizon have to be above 0, and the horizon at most 1e8 steps away"), 1;
@@ -119,7 +124,8 @@ int main(int argc, char **argv)
             if (p.seconds > 0.5) break;
         }
         if (count > 1) lines[drawn++] = (svg_line){ names[d], x[d], y[d], count };
-        else printf("%-10s is not drawn: fewer than two errors from %.0e to 1\n", names[d], floor_of);
+        else printf("%-10s is not drawn: at these steps it fails, or is off by more than 1 or less than %.0e, four times the\n"
+                    "           error of the reference; give a smaller mine_h or a shorter horizon\n", names[d], floor_of);
     }
     const svg_plot plot = { .title = "What accuracy costs", .x_label = "CPU time, in s", .y_label = "error of q at the end",
                             .log_x = 1, .log_y = 1, .lines = lines, .line_count = drawn };

@@ -7,6 +7,8 @@
 #   programs   tests and lessons of tests/compile/chapters.txt that need nothing that is missing pass; one that says it needs a
 #              chapter does not pass without it
 #   symbols    none of the chapter is left
+# The header that `make header` writes, without each chapter and without all: no warning, those scenes to the bit, no name of
+# the chapter left (unifdef; skipped where it is not there).
 # Then a chapter of its own, tests/compile/chapter.h, is plugged into a copy, in which PART I but for two lines of PARTS
 # stays as it is.  The table of sizes is that of docs/embedded.md.
 build=$1 dir=$1/chapters count=0
@@ -170,6 +172,36 @@ awk -F'|' '
         for (k = 1; k <= n; ++k) printf " %s %d+%d", name[k], runs["without " name[k]], runs["core and " name[k]]
         print " (without the chapter + with it alone)"
     }' "$dir/sizes"
+
+# ---- headers made to order: the same scenes, with nothing defined but what tells chapters.c which calls are not there ----
+
+made=$dir/made
+mkdir -p "$made"
+made_to_order() {  # chapters
+    sh tests/tools/header.sh "$made/gvi.h" "$@" >"$dir/made.txt" || fail "header $*"
+    without=$(sed 's/.*; without //' "$dir/made.txt") flags=
+    for c in $without; do
+        flags="$flags -DGVI_NO_$c"
+        ! grep -nE "^ *#ifn?def GVI_NO_$c\b" "$made/gvi.h" || fail "header $*: GVI_NO_$c is still asked"
+    done
+    for compiler in 'gcc -xc -std=c99' 'clang -xc -std=c99' 'g++ -xc++ -std=c++11'; do
+        have ${compiler%% *} || continue
+        $compiler -I"$made" $(echo $strict | sed 's/-I\.//') -fsyntax-only tests/compile/implementation.c || fail "header $*, $compiler"
+    done
+    $CC -std=c99 -O0 -ffp-contract=off -w -I"$made" $flags tests/compile/chapters.c -o "$dir/scenes" -lm &&
+        "$dir/scenes" 2>/dev/null >"$dir/scenes.txt" || fail "header $*: scenes"
+    awk -v missing="$without" '{
+        split(missing, out, " ")
+        name = $0; sub(/:.*/, "", name)
+        for (k in out) if (" " name " " ~ " " out[k] " ") $0 = name ": refused"
+        print }' "$dir/wanted-double" | diff - "$dir/scenes.txt" || fail "header $*: other bits"
+    passed
+}
+if have unifdef; then
+    for c in $all 'NEWTON CONSTRAINTS' CORE; do made_to_order $c; done
+else
+    echo "headers made to order: skipped, unifdef is not there (make deps-header)"
+fi
 
 # ---- a chapter of one's own ----
 

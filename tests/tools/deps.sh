@@ -4,6 +4,7 @@
 # deps.sh --check     also what `make check` uses if it can be had, and skips if not
 # deps.sh --firmware  the compilers and the emulator of `make firmware size`
 # deps.sh --ensemble  the MPI of `make ensemble`
+# deps.sh --header    the unifdef of `make header`, the cppcheck of `make misra`
 # deps.sh --cmocka    installs nothing: can cmocka be compiled against?
 
 have() { command -v "$1" >/dev/null 2>&1; }
@@ -40,11 +41,13 @@ case $1 in
 --firmware) needed=${firmware:-none} by_hand='arm-none-eabi-gcc with newlib, qemu-system-arm' ;;
 --ensemble) needed=${mpi:-none} by_hand='Open MPI or MPICH'
             if echo '#include <mpi.h>' | mpicc -x c -fsyntax-only - 2>/dev/null && have mpirun; then needed=; fi ;;
+--header)   needed='unifdef cppcheck' by_hand='unifdef, cppcheck'
+            if have unifdef && have cppcheck; then needed=; fi ;;
 *)          needed=$cmocka by_hand=cmocka
             if have_cmocka; then needed=; fi ;;
 esac
 if [ "$1" = --check ]; then
-    for pair in clang:clang g++:$cxx valgrind:valgrind cmake:cmake pkg-config:pkg-config x86_64-w64-mingw32-gcc:$mingw; do
+    for pair in clang:clang g++:$cxx unifdef:unifdef valgrind:valgrind cmake:cmake pkg-config:pkg-config x86_64-w64-mingw32-gcc:$mingw; do
         have ${pair%%:*} || welcome="$welcome ${pair#*:}"
     done
     { have /usr/bin/python3 && /usr/bin/python3 -c 'import numpy' 2>/dev/null; } || welcome="$welcome ${numpy:-}"

@@ -3,7 +3,7 @@
 #   1  gvi.h's SYNOPSIS, examples/01_kepler.c and the README: the same program, the same output
 #   2  every complete program in README, guide, tools, scenes, embedded and languages: compiled, run, compared with the output below it
 #   3  every other piece of C in them stands in an example or in tests/compile
-#   4  the version: first line and macro of gvi.h, first entry of the changelog
+#   4  the version: first line and macro of gvi.h, first entry of the changelog, README
 #   5  every relative link leads to a file, and its #anchor to a heading
 #   6  the drawing of places is that of the source
 #   7  docs/reference.md is what gvi.h says; docs/sheet.md names all that is public
@@ -56,8 +56,9 @@ done
 macro=$(sed -n 's/^#define GVI_VERSION "\(.*\)"$/\1/p' gvi.h)
 first=$(sed -n '1s/^.* - v\([0-9.]*\) - .*/\1/p' gvi.h)
 log=$(sed -n 's/^## \([0-9][0-9.]*\).*/\1/p' docs/changelog.md | head -1)
-[ -n "$macro" ] && [ "$macro" = "$first" ] && [ "$macro" = "$log" ] ||
-    fail "versions: macro $macro, first line $first, changelog $log"
+said=$(sed -n 's/^Version \([0-9.]*\) .*/\1/p; s/^  version = {\(.*\)},$/\1/p' README.md | sort -u)
+[ -n "$macro" ] && [ "$macro" = "$first" ] && [ "$macro" = "$log" ] && [ "$macro" = "$said" ] ||
+    fail "versions: macro $macro, first line $first, changelog $log, README" $said
 count=$((count + 1))
 
 # -- 5; GitHub's anchors: lower case, no punctuation, hyphens for spaces, -1 for the second of a name

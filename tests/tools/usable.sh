@@ -27,6 +27,7 @@ for compile in "${CC:-cc} -std=c99 -Wall -Wextra -Wpedantic -Werror -xc" "${CXX:
 done
 make -s mycost BUILD="$dir" FILE=tests/compile/mine.c >"$dir/mycost.out" && grep -q '^degree 8 ' "$dir/mycost.out" &&
     grep -q '^the dial ' "$dir/mycost.out" && [ -s "$dir/mycost.svg" ] || fail "make mycost"
+make -s mycost BUILD="$dir" FILE=tests/compile/mycost_orbit.c | grep -q '^degree 8 ' || fail "make mycost, rows of effects.h"
 count=$((count + 1))
 if have pkg-config; then
     export PKG_CONFIG_PATH="$dir/stage/opt/share/pkgconfig"
@@ -69,8 +70,14 @@ if have cmake; then
         ! app "other$other" "$(echo "$found" | sed "s/gvi REQ/gvi $other REQ/")" "-DCMAKE_PREFIX_PATH=$(pwd)/$dir/stage/opt" ||
             fail "find_package(gvi $other) finds $version"
     done
-    app fetched "$(sed -n '/^    include(FetchContent)/,/^$/p' docs/guide.md; echo 'target_link_libraries(app PRIVATE gvi m)')" \
-        "-DFETCHCONTENT_SOURCE_DIR_GVI=$(pwd)" || { cat "$dir/fetched.log"; fail "FetchContent"; }
+    # to the letter: the clone is beside the project, its branch is main
+    lines=$(sed -n '/^    set(GVI_REPOSITORY/,/^$/p' docs/guide.md; echo 'target_link_libraries(app PRIVATE gvi m)')
+    rm -rf "$dir/gvi"
+    if git clone -q . "$dir/gvi" 2>/dev/null && git -C "$dir/gvi" checkout -q -B main; then
+        app fetched "$lines" || { cat "$dir/fetched.log"; fail "FetchContent"; }
+    else
+        app fetched "$lines" "-DFETCHCONTENT_SOURCE_DIR_GVI=$(pwd)" || { cat "$dir/fetched.log"; fail "FetchContent"; }
+    fi
 else echo "  skipped: no cmake"; fi
 
 if have "${CXX:-c++}"; then
