@@ -43,8 +43,6 @@ CONDITIONS = [   # what it is, the tests near it, what stands in gvi.h and what 
      [('if (change > before && share > (gvi_real)0.02) share /= 2;', '')]),
     ('rolling: rounding of positions', 'constraints constraints_newton loops rolling resolution',
      [('rounded = st->formulation != GVI_NEWTON ? n : 0;', 'rounded = 0;')]),
-    ('a Jacobian that leaves rows empty', 'constraints constraints_newton loops rolling resolution check api',
-     [('if (row >= 0) {\n            gvi__report_row(st, GVI_E_ARGUMENT, row', 'if (0 && row >= 0) {\n            gvi__report_row(st, GVI_E_ARGUMENT, row')]),
     ('units of the multipliers', 'constraints_newton newton loops constraints jumps boundary',
      [('if (diagonal > 0 && column*GVI_SQRT(GVI__EPS) > diagonal)', 'if (0)')]),
     ('changes that make the residual larger are halved', 'constraints_newton newton loops constraints jumps boundary',
