@@ -24,7 +24,7 @@ static void at_point(lagrangian *L, const lagrangian_function f, const gvi_point
     L->kind = LAGRANGIAN_GENERAL;
     const gvi_effect effect = lagrangian_effect(L);
     effect.points(x, effect.user);
-    const gvi_points value = { x->n, x->count, x->stride, x->t, x->q, x->v, NULL, NULL, NULL, x->value, NULL, NULL, NULL, NULL, NULL };
+    const gvi_points value = { x->n, x->count, x->stride, x->t, x->q, x->v, NULL, NULL, NULL, x->value, NULL, NULL, NULL, NULL, NULL, NULL };
     effect.value(&value, effect.user);
 }
 
