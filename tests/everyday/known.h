@@ -51,6 +51,7 @@ static known known_faults[] = {
     { "turning table", "drawn", "", "no solution", REFUSED, 0, { 0, 0, 0 }, NEWTON_AT_REST, 0 },
     { "loudspeaker", "drawn", "", "no solution", REFUSED, 0, { 0, 0, 0 }, LEGENDRE, 0 },
     { "fourth power", "drawn", "", "no solution", REFUSED, 0, { 0, 0, 0 }, LEGENDRE, 0 },
+    { "", "drawn", "", "has no mass", REFUSED, 0, { 0, 0, 0 }, NEWTON_AT_REST, 0 },
     { "heavy top", "drawn", "", "no solution", REFUSED, 0, { 0, 0, 0 }, NEWTON_FLOOR, 0 },
     { "relativistic", "drawn", "", "gave NaN", REFUSED, 0, { 0, 0, 0 }, LEGENDRE, 0 },
     { "charge", "measures", "", "", UNLIKE, 0, { 4, 7, 0 }, "contraction and resolution of what is rounding, beside a term A.v", 0 },
