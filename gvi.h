@@ -4732,7 +4732,7 @@ GVI__BODY gvi__lane gvi__ldl_factor_lane(int n, int R, gvi_real *m)
     const size_t N = (size_t)n, S = (size_t)R;
     gvi__lane sum = { 0 };
 
-    GVI__LOOP(GCC unroll 2) for (size_t j = 0; j < N; ++j) {
+    for (size_t j = 0; j < N; ++j) {
         gvi_real *d = m + (j*N + j)*S;
         gvi__lane rest = GVI__LOAD(d);
         for (size_t l = 0; l < j; ++l)
@@ -4817,7 +4817,7 @@ static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
         for (size_t i = 0, S = (size_t)R; x->count < R && i < (size_t)n*(size_t)n; ++i)
             for (size_t k = (size_t)x->count; k < S; ++k) m[i*S + k] = m[i*S];
         for (int o = 0; o < R; o += GVI__LANES)
-            if (n == 2 && R == 8) sum += gvi__ldl_factor_lane(2, 8, m + o);
+            if (n == 2) sum += gvi__ldl_factor_lane(2, R, m + o);
             else sum += gvi__ldl_factor_lane(n, R, m + o);
         for (int k = 0; k < GVI__LANES; ++k) all += GVI__ENTRY(sum, k);
         if (all < most*most) return GVI_OK;
