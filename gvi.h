@@ -7744,8 +7744,9 @@ GVI__COLD gvi_status gvi__constraint_switch(gvi_stepper *st, unsigned was)
 GVI__OFFERED int gvi__place_explain(gvi_stepper *st, gvi_status status, gvi_real *v,
                                     gvi_status *start)
 {
-    gvi_real *drops = st->in.con.drops + st->in.con.m;
     if (!gvi__constrained(st)) return 0;
+
+    gvi_real *drops = st->in.con.drops + st->in.con.m;
     *start = gvi__constraints_at(st, st->t, st->q, st->p, v, drops);
     if (*start == GVI_OK) {
         *start = gvi__check_rank(st, GVI__FADES);
