@@ -5578,14 +5578,17 @@ typedef struct gvi__matrix {
     gvi_real *unit;        /* of the multipliers, in which the LU has their columns         */
 } gvi__matrix;
 
-/* Where Newton's method stands: the last changes and the least; rho, the contraction seen; the
-   residual in units of its own terms, its norm at the last y that stayed; the last change by each
-   coordinate's size, and over the floor; how often no change was less than half of the least; is
-   there a matrix that will do, is it new; how often was the last change halved, or -1: none to
-   take back; did that change move the residual by half of itself, or is the residual rounding?  */
+/* Where Newton's method stands: the last changes and the least; rho, the contraction seen; what
+   is left of the error, once a change was rounding; the residual in units of its own terms, and
+   once its change is made the work that does in it, or -1 where either is rounding; the
+   residual's norm at the last y that stayed; the last change by each coordinate's size, and what
+   rounding makes of one, see gvi__newton_update; how often no change was less than half of the
+   least; is there a matrix that will do, is it new (1) and was the last one (2); how often was
+   the last change halved, or -1: none to take back; did that change move the residual by half of
+   itself, or is the residual rounding?                                                        */
 typedef struct gvi__descent {
-    gvi_real before, earlier, least, rho, work, norm, each, excess;
-    int      idle, have, fresh, halves, holds;
+    gvi_real before, earlier, least, rho, left, work, norm, each, grain;
+    int      stagnant, have, fresh, halves, holds;
 } gvi__descent;
 
 /* What is held plugs in here: its count of unknowns; g and forces at y; what they add to row k of
@@ -5961,18 +5964,20 @@ static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
 
 /* y += dy from row k0 on; returns the sum of the coordinates' relative changes, to p->each as well;
    but with constraints, which give each coordinate the rounding of all q, the sum of changes over
-   the largest coordinate, each times sqrt(M_ii).  p->excess: the largest over the floor, as in
-   gvi__excess.                                                                                */
+   the largest coordinate, each times sqrt(M_ii), and to p->grain that rounding.  p->work: the work
+   of the change, or -1 where all of it is a few last places of q, or the residual was rounding. */
 static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, const gvi__matrix *J,
                                    gvi__descent *p)
 {
     struct gvi__private *in = &st->in;
-    const int n = st->n, held = gvi__held(st) > 0;
+    const int n = st->n, solved = p->work <= GVI__SOLVED*GVI__EPS,
+              sure = p->holds || p->rho < GVI__CONTRACTS;
     const gvi_real h = GVI_ABS(in->sized.h), none = GVI__MIN/GVI__EPS;
-    gvi_real sum = 0, largest = 0, moved = 0, all = 0, length = 0;
+    gvi_real sum = 0, largest = 0, noise = 0, all = 0, length = 0;
 
+    p->work = 0;
     for (int i = 0; i < n; ++i) {
-        gvi_real change = 0, size = 0;
+        gvi_real change = 0, size = 0, miss = 0;
         const gvi_real q = GVI_ABS(from->q[i]), unit = in->watch.scale[i];
         for (int k = 0; k < st->s; ++k) {
             gvi_real *y = in->newton.y + k*n + i;
@@ -5981,15 +5986,19 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
             if (k >= J->k0) {
                 *y += in->newton.dy[at];
                 change += GVI_ABS(in->newton.dy[at]);
+                miss += GVI_ABS(in->newton.residual[at]);
+                p->work += GVI_ABS(in->newton.dy[at]*in->newton.residual[at]);
             }
             size += GVI_ABS(*y);
         }
         const gvi_real least = GVI__EPS*change;                       // y may land on 0
         if (!(size <= none && change <= none)) sum += change/(size < least ? least : size);
         all += change/unit;
-        length = gvi__larger(size/unit, length);
-        largest = gvi__larger((q + h*size)/unit, largest);
-        moved = gvi__larger(h*change/unit, moved);
+        if (size > length*unit) length = size/unit;
+        if (q + h*size > largest*unit) largest = (q + h*size)/unit;
+        // a wrong matrix may make the change small, not the residual
+        const gvi_real moved = change/unit > miss*unit ? change/unit : miss*unit;
+        if (!(h*change <= GVI__PLACE*GVI__EPS*q) && h*moved > noise) noise = h*moved;
     }
 
     for (size_t k = (size_t)(st->s*n); k < gvi__unknowns(st, 0); ++k) {   // multipliers
@@ -5997,87 +6006,111 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
         in->newton.y[k] += in->newton.dy[k];
     }
 
+    // see gvi__noise
+    const gvi_real place = p->stagnant > 1 ? GVI__NOISE*GVI__EPS*largest : 0;
+    if ((noise <= place && sure) || solved) p->work = -1;
     p->each = sum;
-    p->excess = moved > 0 ? moved/(GVI__NOISE*GVI__EPS*largest) : 0;
-    in->newton.noise = GVI__EPS;
-    if (held && length > none && largest > h*length) in->newton.noise *= largest/(h*length);
-    in->newton.noise *= GVI__GRAIN*(gvi_real)(st->s*n);
-    return held && length > none ? all/length : sum;
+    p->grain = GVI__EPS;
+    if (gvi__held(st) == 0 || !(length > none)) return sum;
+    if (largest > h*length) p->grain *= largest/(h*length);
+    return all/length;
 }
 
-/* What later verdicts need of this change.  To fall is to be at most half of the least so far: what
-   is rounded to a grid may circle among a few of its points.                                  */
-static void gvi__newton_note(gvi_stepper *st, gvi__descent *p, gvi_real change)
+// what later verdicts ask of this change: the contraction, and whether it still shrinks
+static void gvi__newton_note(gvi_stepper *st, gvi__descent *p, gvi_real change, gvi_real noise)
 {
-    const int first = !(p->before > 0), falls = first || change <= p->least/2,
-              felt = !first && p->excess > 1;
-
+    const gvi_real before = p->before;
     if (p->earlier > 0 && change > GVI__SURE*GVI__EPS) {
         const gvi_real contraction = GVI_SQRT(change/p->earlier);
         st->counters.worst_contraction = gvi__larger(contraction, st->counters.worst_contraction);
     }
 
-    if (felt) st->in.newton.bend = gvi__larger(change/p->before, st->in.newton.bend);
-    if (!first && falls && (felt || change < p->rho*p->least)) p->rho = change/p->least;
-    p->idle = falls ? 0 : p->idle + 1;
+    const int stagnant = before > 0 && change > p->least/2, rests = p->left < GVI__MAX;
+    p->stagnant = stagnant ? p->stagnant + 1 : 0;
+    if (before > 0 && !stagnant && !rests && (change > noise || change < p->rho*p->least))
+        p->rho = change/p->least;
     p->least = gvi__smaller(change, p->least);
-    p->earlier = p->before;
-    p->before = change;
+
+    const int felt = gvi__held(st) == 0 || p->work >= 0;   // not the rounding of g
+    if (before > 0 && change > noise && felt)
+        st->in.newton.bend = gvi__larger(change/before, st->in.newton.bend);
 }
 
-/* The verdict on a change.  It is rounding if it does not fall and is below the floor, the more
-   changes in a row the higher, by a matrix that is right: it has contracted, or the residual shows
-   it.  Two facts count as the floor after three changes: a new matrix that is right does not make
-   small ones fall, so the callbacks are noisy; or the residual is rounding, where the matrix is
-   nearly singular.                                                                            */
-static int gvi__newton_converged(gvi_stepper *st, gvi__descent *p, gvi_real change)
+/* Is it rounding?  One that does not shrink is, if y, q or the residual is, or if it is small and
+   its matrix is new or has contracted here: an older one can repeat any change.  It then hides no
+   more of the error, p->left, than the change before, which shrinks on by the contraction seen. */
+static int gvi__newton_rests(gvi__descent *p, gvi_real change, gvi_real noise)
+{
+    const gvi_real quarter = GVI__CONTRACTS;
+    const int fresh = p->fresh & 1, proven = (fresh && p->holds) || p->rho < quarter;
+    const int small = change <= noise || (fresh && change <= GVI_SQRT(GVI__EPS));
+    if (p->stagnant > 0 && !(p->left < GVI__MAX) && (p->work < 0 || (proven && small)))
+        p->left = p->before;
+    if (!(p->left < GVI__MAX)) return 0;
+    p->left *= gvi__smaller(p->rho, quarter);
+    return 1;
+}
+
+/* The verdict on a change.  To shrink is to be at most half of the least so far: what is rounded to
+   a grid may circle among a few of its points, and fall in every iteration.  Nor is a fall from an
+   overshoot far beyond the size of y a contraction.  One ratio by an old matrix may
+   be luck: unless the change is rounding, the one before must agree.                          */
+static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p,
+                                 gvi_real change)
 {
     const gvi_real all = (gvi_real)st->n, quarter = GVI__CONTRACTS,
+                   noise = GVI__GRAIN*p->grain*(gvi_real)((st->s - J->k0)*st->n),
                    enough = gvi__larger(st->in.desc.tolerance, GVI__NEWTON_ENOUGH);
     gvi_real ratio = 1, other = 1;
 
-    // a fall from an overshoot far beyond the size of y is no contraction
     if (!gvi__finite(change)) return GVI__NOT_FINITE;
+    st->in.newton.noise = noise;
     if (p->before > 0) ratio = change/gvi__smaller(p->before, all);
     if (p->earlier > 0) other = p->before/gvi__smaller(p->earlier, all);
-    gvi__newton_note(st, p, change);
+    gvi__newton_note(st, p, change, noise);
+    const int rests = gvi__newton_rests(p, change, noise), contracts = p->rho < quarter;
 
-    const int right = p->holds || p->rho < quarter, proven = p->fresh && p->holds,
-              noisy = (proven && change <= GVI_SQRT(GVI__EPS)) || p->work <= GVI__SOLVED*GVI__EPS,
-              below = p->excess <= (gvi_real)(p->idle*p->idle)/8 || (noisy && p->idle > 2);
-    if (right && below && p->idle > 1) return GVI__DONE;
+    const int confirmed = (p->fresh & 1 && p->holds) || change <= noise || change*other <= enough;
+    const int done = (p->each*ratio <= enough && confirmed) || p->left <= enough;
+    if (done && (p->holds || contracts)) return GVI__DONE;
 
-    // one ratio by an old matrix may be luck: above the floor the one before must agree
-    const int confirmed = proven || p->excess <= 1 || change*other <= enough;
-    if (right && confirmed && p->each*ratio <= enough) return GVI__DONE;
-
-    if (p->earlier > 0 && ratio > quarter && (!right || p->excess > 1)) p->have = 0;
+    // rounding by a matrix that has contracted here asks for no other
+    if (!rests && !(p->work < 0 && contracts) && p->before > 0 && ratio > quarter) p->have = 0;
+    p->earlier = p->before;
+    p->before = change;
     return GVI__GO_ON;
 }
 
-/* Does y, whose residual has that norm, stay?  A change above the floor that has not reduced the
+/* Does y, whose residual has that norm, stay?  A change that is not small and has not reduced the
    residual is taken back, for a new matrix; or halved, if the matrix was new.  Where six halvings
    have not helped, the whole change stands: across a kink, or from one curve to the next, the way
-   down may lead up first.                                                                     */
+   down may lead up first.  And what seemed to be rounding but grows again was no rounding.    */
 static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p, gvi_real norm)
 {
     enum { HALVES = GVI__NEARER };
-    if (J->halves && p->halves >= 0 && p->halves <= HALVES && !(norm < p->norm)
+    const int rests = p->left < GVI__MAX, fresh = p->fresh & 1;
+    if (J->halves && p->halves >= 0 && p->halves <= HALVES && !(norm < p->norm) && !rests
         && p->before > GVI_SQRT(GVI__EPS)) {
         gvi_real *y = st->in.newton.y, *last = st->in.newton.last;
-        const gvi_real part = !p->fresh            ? 0
+        const gvi_real part = !fresh               ? 0
                               : p->halves < HALVES ? (gvi_real)0.5
                                                    : (gvi_real)(1 << HALVES);
         for (size_t i = 0, all = gvi__unknowns(st, 0); i < all; ++i)
             y[i] = last[i] + part*(y[i] - last[i]);
-        if (p->fresh) p->halves += 1;
+        if (fresh) p->halves += 1;
         else p->have = 0, p->halves = -1;
         gvi__count(&st->counters.newton_iterations, 1);
         return 0;
     }
 
     if (p->halves > 0) p->have = 0;                // another place: another matrix
-    p->norm = norm;
+    if (rests && norm/16 > p->norm) {
+        p->before = 0;
+        p->least = p->left = GVI__MAX;
+        p->rho = GVI__CONTRACTS;
+    }
+
+    if (!(p->left < GVI__MAX)) p->norm = norm;
     return 1;
 }
 
@@ -6089,7 +6122,8 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
     const int size = (int)gvi__unknowns(st, J->k0), modes = (st->s - J->k0)*st->n,
               kept = J->pivot == in->newton.pivot;
     gvi__descent p = {
-        0, 0, GVI__MAX, GVI__CONTRACTS, 0, GVI__MAX, 0, 0, 0, 0, 0, -1, 0
+        0, 0, GVI__MAX, GVI__CONTRACTS, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, -1, 0
+
     };
     p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);
     in->newton.bend = 0;
@@ -6099,7 +6133,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
         // one more evaluation, then done
         if (status != GVI_OK || verdict == GVI__DONE) return status;
         if (!gvi__newton_stays(st, J, &p, gvi__residual(st, from, J->k0, &p))) continue;
-        p.fresh = !p.have;
+        p.fresh = (p.fresh & 1) << 1 | !p.have;
         if (!p.have) {
             if (++made > in->desc.max_iterations/4 + 2) break;
             status = gvi__jacobian(st, J);
@@ -6115,7 +6149,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
         gvi_lu_solve(size, J->square, J->pivot, in->newton.dy);
         for (int z = modes; z < size; ++z) in->newton.dy[z] *= J->unit[z - modes];
         gvi__count(&st->counters.newton_iterations, 1);
-        verdict = gvi__newton_converged(st, &p, gvi__newton_update(st, from, J, &p));
+        verdict = gvi__newton_converged(st, J, &p, gvi__newton_update(st, from, J, &p));
         if (verdict == GVI__NOT_FINITE)
             return gvi__report_status(st, GVI__LOOKS(st) ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
         p.halves = 0;
@@ -8889,7 +8923,7 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, size = (st->s - J->k0)*n;
-    gvi__descent p = { 0, 0, GVI__MAX, 0, 0, GVI__MAX, 0, 0, 0, 0, 0, 0, 0 };
+    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, 0, 0 };
     gvi_real *y = in->newton.y, before = 0, length = 0;
 
     if (grow > 1 && J->k0 == 0) {
