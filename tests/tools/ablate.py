@@ -15,8 +15,6 @@ CONDITIONS = [   # what it is, the tests near it, what stands in gvi.h and what 
      [('p->poor = excess > 1 && excess > p->excess/2 ? p->poor + poor : 0;', 'p->poor = excess > 1 ? p->poor + poor : 0;')]),
     ('slow: errors grew first', 'newton regressions jumps convergence',
      [('slow ? GVI__DIVERGES', '0 ? GVI__DIVERGES')]),
-    ('Newton: noisy callbacks, a nearly singular matrix', 'newton boundary jumps constraints_newton',
-     [('|| (noisy && p->idle > 2);', '; (void)noisy;')]),
     ('of rows that depend on each other the last is left out', 'constraints constraints_newton loops rolling resolution',
      [('spare = gvi__spare(st, S, i, was, A);', 'spare = i, (void)gvi__spare;')]),
     ('near its root g is taken for linear', 'constraints constraints_newton loops rolling resolution',

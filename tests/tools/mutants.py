@@ -63,8 +63,8 @@ MUTANTS = [
     ("api", "    in->skip = own.skip;", ""),
     # Newton's method
     ("newton queries", "fv[j*n + i] : 0, 0);", "fv[i*n + j] : 0, 0);"),
-    ("newton jumps", "falls = first || change <= p->least/2,",
-              "falls = first || change <= p->least,"),
+    ("newton jumps", "change > p->least/2, rests",
+              "change > p->least, rests"),
     # queries, boundary values
     ("queries domains", "if (gvi__nonzero(back)) h = back - st->t_low;", "h = back - st->t_low;"),
     ("queries", "if (GVI_ABS(ahead) <= edge) t = st->t0;", "if (0) t = st->t0;"),
