@@ -20,7 +20,7 @@
 #ifndef PAD
 #define PAD 0
 #endif
-enum { N = 4, EFFECTS = 4, POINTS = 24 };
+enum { N = 4, EFFECTS = 4, ROWS = EFFECTS*(N + 1), POINTS = 24 };
 
 /* -------------------------------------------------------------------- bytes */
 
@@ -279,7 +279,7 @@ static void fit(int n, const gvi_desc *d, double t, const double *q, double *v)
 
 static void call(gvi_stepper *st, const gvi_desc *d, unsigned what)
 {
-    double before[2*N + 1] = { st->t }, a[N], b[N], c[N], z[N], x = 0;
+    double before[2*N + 1] = { st->t }, a[N], b[N], c[ROWS], z[N], x = 0;
     int changes = 0, negative = 0;
     const gvi_discrete out = { .lagrangian = &x, .d1 = c, .d2 = z, .negative = below(2) ? &negative : NULL };
     gvi_status status;
