@@ -440,7 +440,9 @@ GVI__MACROS(push_macro)
 #define GVI_NO_BOUNDARY
 #endif
 
-// a body whose sizes are constants where it is called, copied there; arrays that do not overlap
+/* GVI__BODY: copied to where it is called, since its sizes are constants there.
+   GVI__COPIED: so, too, unless code is to be small.
+   GVI__RESTRICT: arrays that do not overlap.                                                    */
 #if defined(__GNUC__)
 #define GVI__BODY static inline __attribute__((always_inline))
 #define GVI__RESTRICT __restrict
@@ -449,6 +451,11 @@ GVI__MACROS(push_macro)
 #define GVI__BODY static inline
 #define GVI__RESTRICT
 #define GVI__UNUSED
+#endif
+#if defined(__OPTIMIZE_SIZE__)
+#define GVI__COPIED static inline
+#else
+#define GVI__COPIED GVI__BODY
 #endif
 // gcc at -O2 makes vectors only of loops of known length; clang warns where it makes none
 #if defined(__clang__) && defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
@@ -1448,7 +1455,8 @@ typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
 /* GVI__APART: where size counts, never a part of its caller, whose stack stays small.
    GVI__CALLED: never a part of its caller, whose registers are for scenes without it.
    GVI__COLD: set-up and queries, compiled for size.
-   GVI__OFFERED: to other chapters, which may be left out.                                        */
+   GVI__OFFERED: to other chapters, which may be left out.
+   GVI__IS: is x the constant k, for which code of its own may be made?                           */
 #if defined(__GNUC__)
 #define GVI__COLD static __attribute__((noinline, cold))
 #define GVI__CALLED static __attribute__((noinline))
@@ -1464,6 +1472,7 @@ typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
 #define GVI__APART static
 #define GVI__SMALL 0
 #endif
+#define GVI__IS(x, k) (!GVI__SMALL && (x) == (k))
 
 /* Registers that hold more than one type's digits round twice: values are stored to round them. */
 #if FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 16
@@ -1614,7 +1623,7 @@ GVI__BODY gvi__two gvi__add_low(gvi_real x, gvi_real x_low, gvi_real y, gvi_real
 #if defined(__GNUC__) && GVI__KIND < 3                                                            \
     && ((defined(__FMA__) && defined(__SSE2_MATH__)) || defined(__aarch64__)                      \
     || (GVI__KIND == 1 && defined(__FP_FAST_FMAF)) || (GVI__KIND == 2 && defined(__FP_FAST_FMA)))
-GVI__BODY gvi__two gvi__two_prod(gvi_real a, gvi_real b)
+GVI__COPIED gvi__two gvi__two_prod(gvi_real a, gvi_real b)
 {
     return gvi__two_of(a*b, GVI__MATH(__builtin_fma)(a, b, -(a*b)));
 }
@@ -1627,7 +1636,7 @@ GVI__BODY gvi__two gvi__split(gvi_real x)
     return gvi__two_of(hi, lo);
 }
 
-GVI__BODY gvi__two gvi__two_prod(gvi_real a, gvi_real b)
+GVI__COPIED gvi__two gvi__two_prod(gvi_real a, gvi_real b)
 {
     const gvi__two x = gvi__split(a), y = gvi__split(b);
     const gvi__rounded hi = a*b;
@@ -2485,7 +2494,7 @@ static int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_p
 
 /* One effect at all points; it sees only what its kind may read.  `value`, if not NULL, gets V
    or L, in the same call where one function gives both.                                       */
-GVI__BODY gvi_status gvi__effect(gvi_stepper *st, gvi_points *at, int e, gvi_real *value)
+GVI__COPIED gvi_status gvi__effect(gvi_stepper *st, gvi_points *at, int e, gvi_real *value)
 {
     const gvi_effect *effect = st->in.desc.effects + e;
     const gvi_real *v = at->v;
@@ -2510,8 +2519,8 @@ GVI__BODY gvi_status gvi__effect(gvi_stepper *st, gvi_points *at, int e, gvi_rea
 
 /* Every effect that is on, but those with a bit in `skip` or that a chapter evaluates itself: adds
    to at->f and at->dldv, and its value to value[kind], if there is one.                       */
-GVI__BODY gvi_status gvi__each_effect(gvi_stepper *st, gvi_points *at, unsigned skip,
-                                      gvi_real *const *value)
+GVI__COPIED gvi_status gvi__each_effect(gvi_stepper *st, gvi_points *at, unsigned skip,
+                                        gvi_real *const *value)
 {
     const int count = st->in.desc.effect_count;
     skip |= st->in.off | st->in.apart;
@@ -3351,7 +3360,7 @@ typedef struct gvi__stage {
 
 /* GVI__FOR_ROW(R, body): GVI__ALONG for a row, unrolled where it is the most frequent one.    */
 #define GVI__FOR_ROW(R, ...)                                                                    \
-    if ((R) == 8) GVI__ALONG_BY(GVI__UNROLL, 8, __VA_ARGS__) else GVI__ALONG(R, __VA_ARGS__)
+    if (GVI__IS(R, 8)) GVI__ALONG_BY(GVI__UNROLL, 8, __VA_ARGS__) else GVI__ALONG(R, __VA_ARGS__)
 
 // row := low + (c path_low + c path), one coordinate's free motion over its base
 GVI__BODY void gvi__free_row(int R, gvi_real low, gvi_real path, gvi_real path_low,
@@ -3993,7 +4002,7 @@ GVI__BODY void gvi__fold(int half, gvi_real *hi, gvi_real *lo)
 
 /* sum_j a_j b_j with its low word, since the errors of increments add up over the steps.  Eight
    partial sums, then these by halves; past the last point the numbers are 0.                  */
-GVI__BODY gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
+GVI__COPIED gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
 {
     gvi_real hi[8], lo[8];
     for (int k = 0; k < 8; ++k) {
@@ -4024,9 +4033,9 @@ static void gvi__sum_rows(const gvi_stepper *st, gvi_real *rows, const gvi_real 
         // a callback may have left anything there
         if (st->r < R) gvi__zero((size_t)(R - st->r), rows + st->r);
         gvi__two z;
-        if (R == 8) z = gvi__exact_dot(8, st->in.sized.hb, rows);
-        else if (R == 4) z = gvi__exact_dot(4, st->in.sized.hb, rows);
-        else if (R == 16) z = gvi__exact_dot(16, st->in.sized.hb, rows);
+        if (GVI__IS(R, 8)) z = gvi__exact_dot(8, st->in.sized.hb, rows);
+        else if (GVI__IS(R, 4)) z = gvi__exact_dot(4, st->in.sized.hb, rows);
+        else if (GVI__IS(R, 16)) z = gvi__exact_dot(16, st->in.sized.hb, rows);
         else z = gvi__exact_dot(R, st->in.sized.hb, rows);
         sum[i] = z.hi;
         sum_low[i] = gvi__low(z.lo + low[i]);
@@ -4056,7 +4065,7 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
     for (int i = 0; i < st->n; ++i, F += R) {
         in->step.q[i] = gvi__parts(in) & GVI__IN_CONSTRAINTS && in->apart & ~in->off
                             ? gvi__place_bow(st, i)
-                            : R == 8 ? gvi__bow(8, c, hb, F) : gvi__bow(R, c, hb, F);
+                            : GVI__IS(R, 8) ? gvi__bow(8, c, hb, F) : gvi__bow(R, c, hb, F);
     }
 
     gvi__over_mass(st, in->step.q, 1, 1);
@@ -5382,8 +5391,9 @@ static void gvi__drifts_for(gvi_stepper *st, gvi_real h)
 
 /* dp += b F, then the drift dq += a (v + M^-1 dp), Q = q + dq; F := 0 for the next force.  First
    in a step, dp and dq are the low words of the state, and F is `first`.                      */
-GVI__BODY void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_real *GVI__RESTRICT v,
-                          const gvi_real *first, gvi_real b, gvi_real a)
+GVI__COPIED void gvi__drift(gvi_stepper *st, const gvi__origin *from,
+                            const gvi_real *GVI__RESTRICT v, const gvi_real *first, gvi_real b,
+                            gvi_real a)
 {
     struct gvi__private *in = &st->in;
     const gvi_real *GVI__RESTRICT q = from->q, *GVI__RESTRICT m = in->mass.inverse;
