@@ -1,4 +1,4 @@
-// build.mjs WASM OUT - puts style, script and the compressed program into the page
+// build.mjs WASM OUT - puts style and the compressed script and program into the page
 import { readFileSync, writeFileSync } from 'node:fs';
 import { gzipSync } from 'node:zlib';
 import { dirname, join } from 'node:path';
@@ -20,10 +20,11 @@ const characters = octets => {
 const bare = name => read(name).replace(/^ *\/\*[^]*?\*\/\n/gm, '').split(/(return `\/\*[^]*?\n`;|const EXAMPLES[^]*?\n};)/)
   .map((part, i) => i % 2 ? part : part.replace(/^ +| +\/\/ .*$/gm, '')).join('').trim();
 const [wasm, out] = process.argv.slice(2);
-const packed = gzipSync(readFileSync(wasm), { level: 9 });
+const script = Buffer.from(bare('lagrangian.js') + '\n' + bare('page.js')), length = Buffer.alloc(4);
+length.writeUInt32BE(script.length);
+const packed = gzipSync(Buffer.concat([length, script, readFileSync(wasm)]), { level: 9 });
 packed[9] = 255;                                         // "operating system": the same on all
-const program = characters(packed), page = read('page.html').replace('/*STYLE*/', () => bare('style.css'))
-  .replace('/*WASM*/', () => program).replace('/*SCRIPT*/', () => bare('lagrangian.js') + '\n' + bare('page.js'));
+const page = read('page.html').replace('/*STYLE*/', () => bare('style.css')).replace('/*PACKED*/', () => characters(packed));
 writeFileSync(out, page);
-console.log(`${out}: ${(page.length/1000).toFixed(1)} KB, of them ${(program.length/1000).toFixed(1)} KB the program`);
+console.log(`${out}: ${(page.length/1000).toFixed(1)} KB, of them ${(packed.length/800).toFixed(1)} KB script and program`);
 if (page.length > 200000) { console.error('more than 200 KB'); process.exit(1); }

@@ -1,14 +1,25 @@
 /* lagrangian.js - what is typed as a Lagrangian: to operations for own.h, and to C for lagrangian.h.
 
-   lagrange(text) gives { names, n, q, v, steps, length, draw, rods, end, timed, c }, or throws an Error that
+   lagrange(text) gives { names, n, q, v, steps, length, draw, rods, force, end, timed, c }, or throws an Error that
    names line and column.  The text: name = value or expression; L = ...; x(0) = value makes x a coordinate,
-   whose velocity is vx (of q1: v1); end = value; draw = (x, y) (x, y), (x, y): what stands together is joined. */
-const MATHS = { sqrt: Math.sqrt, exp: Math.exp, log: Math.log, sin: Math.sin, cos: Math.cos, tan: Math.tan };
+   whose velocity is vx or x' (of q1: v1); Fx = ... is a force on it; end = value; draw = (x, y) (x, y), (x, y):
+   what stands together is joined.  2 x, sin^2(x), Greek letters, x² are read as on paper. */
+const MATHS = { sqrt: Math.sqrt, exp: Math.exp, log: Math.log, sin: Math.sin, cos: Math.cos, tan: Math.tan, atan: Math.atan };
 const SIGNS = '?+-*/^';                                  /* their numbers, and after them MATHS: own.h */
+const N = c => ['number', c], EXP = a => ['exp', a];
+const MADE_OF = {                                        /* by the others */
+  sinh: a => ['/', ['-', EXP(a), ['/', N(1), EXP(a)]], N(2)],
+  cosh: a => ['/', ['+', EXP(a), ['/', N(1), EXP(a)]], N(2)],
+  tanh: a => ['-', N(1), ['/', N(2), ['+', EXP(['*', N(2), a]), N(1)]]],
+  asin: a => ['atan', ['/', a, ['sqrt', ['-', N(1), ['*', a, a]]]]],
+};
+const GREEK = 'alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi omicron pi rho sigma sigma tau upsilon phi chi psi omega'.split(' ');
+const spelled = name => name.replace(/[\u03b1-\u03c9]/g, c => GREEK[c.charCodeAt() - 945]).replace(/[\u0391-\u03a9]/g, c => GREEK[c.charCodeAt() - 913].replace(/./, a => a.toUpperCase()))
+  .replace(/[\u2080-\u2089]/g, c => c.charCodeAt() - 8320);
 const speedOf = name => /^q\d*$/.test(name) ? name.replace('q', 'v') : 'v' + name;
 
 function lagrange(text) {
-  let at = 0;
+  let at = 0, fresh = true;                              /* fresh: the next token is on another line than the last */
   const stop = (what, where = at) => {
     const lines = text.slice(0, where).split('\n');
     throw Error(`Line ${lines.length}, column ${lines.pop().length + 1}: ${what}.`);
@@ -16,10 +27,12 @@ function lagrange(text) {
   const seen = re => {                                   /* the next token, if it is of this kind */
     const [space] = /^(\s|#.*)*/.exec(text.slice(at));
     at += space.length;
+    fresh ||= space.includes('\n');
     return (re.exec(text.slice(at)) || [])[0];
   };
-  const take = re => { const word = seen(re); at += word ? word.length : 0; return word; };
-  const NAME = /^[a-z]\w*/i;
+  const take = re => { const word = seen(re); if (word) at += word.length, fresh = false; return word; };
+  const NAME = /^[a-z\u0391-\u03c9][\w\u0391-\u03c9\u2080-\u2089]*/i;
+  const word = () => { const name = spelled(take(NAME) || ''); return name && text[at] === "'" ? (at++, speedOf(name)) : name; };
   const found = () => seen(/^./) ? `"${seen(/^(\w+|.)/)}"` : 'the end';
   const need = (sign, why) => take(RegExp('^\\' + sign)) || stop(`"${sign}" is missing before ${found()}${why || ''}`);
 
@@ -28,38 +41,45 @@ function lagrange(text) {
     const number = take(/^(\d+\.?\d*|\.\d+)(e[+-]?\d+)?/i);
     if (number) return ['number', +number];
     if (take(/^\(/)) { const inside = sum(); need(')'); return inside; }
-    const name = take(NAME), place = at - (name || '').length;
+    seen(/^./);
+    const place = at, said = word(), name = said === 'ln' ? 'log' : said, known = MATHS[name] || MADE_OF[name];
     if (!name) stop(`a number, a name or "(" belongs here, not ${found()}`);
+    const raised = known && take(/^\^/) ? [N(+must(/^-?\d+/, 'a whole number belongs here'))] : known && raisedBy();
     if (!seen(/^\(/)) return ['name', name, , place];
     if (/^(f?abs|sign|min|max|floor)$/.test(name)) stop(`${name} has a kink, and L has to be smooth; sqrt(x^2 + 0.01) is`, place);
-    if (name !== 'pow' && !MATHS[name]) stop(`${name} is not a function; there are ${Object.keys(MATHS).join(', ')}, pow and ^`, place);
+    if (name !== 'pow' && !known) stop(`${name} is not a function; there are ${[...Object.keys(MATHS), ...Object.keys(MADE_OF)].join(', ')}, pow and ^`, place);
     need('(');
     const inside = sum();
-    if (name !== 'pow') return need(')'), [name, inside];
+    if (name !== 'pow') return need(')'), raised ? ['^', [name, inside], raised[0]] : [name, inside];
     need(',', ': pow takes two');
     const power = sum();
     need(')');
     return ['^', inside, power];
   }
+  const must = (re, why) => take(re) || stop(`${why}, not ${found()}`);
+  const raisedBy = () => { const sign = take(/^[\u00b2\u00b3]/); return sign && [N(sign === '\u00b2' ? 2 : 3)]; };
   function power() {
-    const base = atom();
-    return take(/^\^/) ? ['^', base, signed()] : base;
+    const base = atom(), raised = raisedBy();
+    return raised ? ['^', base, raised[0]] : take(/^\^/) ? ['^', base, signed()] : base;
   }
   const signed = () => take(/^-/) ? ['-', ['number', 0], signed()] : take(/^\+/) ? signed() : power();
-  const chain = (below, signs) => () => {
+  const chain = (below, next) => () => {
     let left = below(), sign;
-    while ((sign = take(signs))) left = [sign, left, below()];
+    while ((sign = next())) left = [sign, left, below()];
     return left;
   };
-  const sum = chain(chain(signed, /^[*/]/), /^[+-]/);
+  /* what stands beside it on the same line is a factor, unless it begins a line of its own, as x(0) = does */
+  const beside = () => seen(/^./) && !fresh && /^(?![a-z\u0391-\u03c9][\w\u0391-\u03c9\u2080-\u2089]*'?\s*(\(\s*0\s*\)\s*)?=)[a-z\u0391-\u03c9(]/i.test(text.slice(at)) && '*';
+  const sum = chain(chain(signed, () => (take(/^[*/\u00b7\u00d7]/) || '').replace(/[\u00b7\u00d7]/, '*') || beside()), () => (take(/^[+\u2212-]/) || '').replace('\u2212', '-'));
 
   /* the lines */
   const lines = new Map(), places = new Map(), points = [], rods = [];
   for (take(/^[,;]/); seen(/^./); take(/^[,;]/)) {
-    const word = take(NAME), place = at - (word || '').length, zero = take(/^\(\s*0\s*\)/), name = word + (zero ? '(0)' : '');
-    if (!word) stop(`a line begins with a name, not with ${found()}`);
-    if (!take(/^=/)) stop(lines.size ? `a sign such as * is missing before "${word}", or "=" after it` : `"=" is missing after ${name}`, place);
-    if (MATHS[word] || /^(pow|pi|t)$/.test(word) || /^[qv]$/.test(name)) stop(`${word} has a meaning of its own: take another name`, place);
+    seen(/^./);
+    const place = at, given = word(), zero = take(/^\(\s*0\s*\)/), name = given + (zero ? '(0)' : '');
+    if (!given) stop(`a line begins with a name, not with ${found()}`);
+    if (!take(/^=/)) stop(lines.size ? `a sign such as * is missing before "${given}", or "=" after it` : `"=" is missing after ${name}`, place);
+    if (MATHS[given] || MADE_OF[given] || /^(pow|ln|pi|t)$/.test(given) || /^[qv]$/.test(name)) stop(`${given} has a meaning of its own: take another name`, place);
     if (places.has(name)) stop(`${name} is given twice`, place);
     places.set(name, place);
     if (name !== 'draw') { lines.set(name, sum()); continue; }
@@ -118,6 +138,7 @@ function lagrange(text) {
     if (kind === 'name') return valueOf(left, place);
     const a = make(left);
     if (MATHS[kind]) return call(kind, a);
+    if (MADE_OF[kind]) return make(MADE_OF[kind](left));
     const b = make(right), both = a.c !== undefined && b.c !== undefined;
     if (both) return { c: { '+': a.c + b.c, '-': a.c - b.c, '*': a.c * b.c, '/': a.c / b.c, '^': a.c ** b.c }[kind] };
     if (kind !== '^') return step(SIGNS.indexOf(kind), slot(a), slot(b), 0);
@@ -130,7 +151,9 @@ function lagrange(text) {
   };
   let root = slot(valueOf('L'));
   if (root <= 2 * n) root = step(3, root, slot({ c: 1 }), 0);
-  const used = made.slice(0, -1), length = root - 2 * n, hasTime = timed;
+  const used = made.slice(0, -1), length = root - 2 * n, forced = names.map(a => n > 1 || lines.has('F' + a) ? 'F' + a : 'F').map(a => lines.has(a) && !used.includes(a) && a);
+  const force = forced.map(a => a ? slot(valueOf(a)) : -1), hasTime = timed;
+  if (lines.has('F') && !values.has('F')) stop(`F acts on no coordinate: a force on ${names[0]} is F${names[0]} = ...`, places.get('F'));
   const q = names.map(a => constant(a + '(0)', 0)), v = names.map(a => constant(speedOf(a) + '(0)', 0)), end = constant('end', 10);
   if (!(end > 0)) stop('end has to be above 0', places.get('end'));
   for (const name of lines.keys()) if (!/\)$|^end$/.test(name)) valueOf(name);
@@ -143,7 +166,7 @@ function lagrange(text) {
   if (steps.length > 600) stop('there is room for 600 operations');
 
   /* C */
-  const own = a => /^(t|q|v|user|number|complex|[A-Z_]{3,}|unix|linux|auto|break|case|char|const|continue|default|do|double|else|enum|extern|float|for|goto|if|inline|int|long|register|restrict|return|short|signed|sizeof|static|struct|switch|typedef|union|unsigned|void|volatile|while|asm|typeof)$/.test(a) ? a + '_' : a;
+  const own = a => /^(t|q|v|at|user|number|complex|[A-Z_]{3,}|unix|linux|auto|break|case|char|const|continue|default|do|double|else|enum|extern|float|for|goto|if|inline|int|long|register|restrict|return|short|signed|sizeof|static|struct|switch|typedef|union|unsigned|void|volatile|while|asm|typeof)$/.test(a) ? a + '_' : a;
   const bare = ([kind, left, right]) => kind === 'number' || kind !== 'name' && bare(left) && (!right || bare(right));
   const met = new Set();
   /* level: 1 of a sum, 2 of a product, 3 of what binds more; whole numbers among themselves would divide as such */
@@ -151,20 +174,28 @@ function lagrange(text) {
     const within = (inner, text) => level > inner ? `(${text})` : text;
     if (kind === 'number') return left + (real && Number.isInteger(left) && left < 1e21 ? '.0' : '');
     if (kind === 'name') return left === 'pi' ? String(Math.PI) : left === 't' ? left : (met.add(left), own(left));
-    if (MATHS[kind]) return `${kind}(${C(left, 0)})`;
+    if (MATHS[kind] || MADE_OF[kind]) return `${kind}(${C(left, 0)})`;
     const a = l => C(left, l, bare(right)), b = l => C(right, l, bare(left));
     if (kind === '^') return left[0] === 'name' && right[1] === 2 ? within(2, a(3) + '*' + a(3)) : `pow(${a(0)}, ${b(0)})`;
     if (kind === '-' && left[0] === 'number' && !left[1]) return within(1, '-' + C(right, 2));
     return /[+-]/.test(kind) ? within(1, `${a(1)} ${kind} ${b(2)}`) : within(2, a(2) + kind + b(3));
   }
   const fold = line => line.replace(/(.{45,68}?) ([+-]) /g, '$1\n            $2 ');
-  const body = ['return ' + C(lines.get('L'), 0)];
-  for (const name of used.reverse()) if (met.has(name)) {
-    const { c } = values.get(name);
-    body.unshift(c === undefined ? `const number ${own(name)} = ${C(lines.get(name), 0)}` : `const double ${own(name)} = ${c}`);
-  }
-  const inputs = names.flatMap((a, i) => [[a, `q[${i}]`], [speedOf(a), `v[${i}]`]]).filter(([a]) => met.has(a)).map(([a, b]) => `${own(a)} = ${b}`);
-  if (inputs.length) body.unshift('const number ' + inputs.join(', '));
-  const c = `LAGRANGIAN(own, ${n})\n{\n${body.map(l => `    ${fold(l)};\n`).join('')}}`;
-  return { names, q, v, n, steps, length, draw, rods, end, timed: hasTime, c };
+  /* what `ends` need, in order: lines, and q and v from `at` */
+  const body = (ends, of, type, at) => {
+    met.clear();
+    const rows = ends.map(([head, name]) => head + C(lines.get(name), 0));
+    for (const name of of.reverse()) if (met.has(name)) {
+      const { c } = values.get(name);
+      rows.unshift(c === undefined ? `const ${type} ${own(name)} = ${C(lines.get(name), 0)}` : `const double ${own(name)} = ${c}`);
+    }
+    const inputs = names.flatMap((a, i) => [[a, `${at}q[${i}]`], [speedOf(a), `${at}v[${i}]`]]).filter(([a]) => met.has(a)).map(([a, b]) => `${own(a)} = ${b}`);
+    if (at && rows.some(row => /\bt\b/.test(row))) inputs.push('t = *at->t');
+    if (inputs.length) rows.unshift(`const ${type} ` + inputs.join(', '));
+    return rows.map(l => `    ${fold(l)};\n`).join('');
+  };
+  let c = `LAGRANGIAN(own, ${n})\n{\n${body([['return ', 'L']], used, 'number', '')}}`;
+  const acting = forced.flatMap((a, i) => a ? [[`at->f[${i}] += `, a]] : []);
+  if (acting.length) c += `\n\nGVI_POINTS(force, ${n}, v, f)(const gvi_points *at, void *user)\n{\n${body(acting, [...made], 'double', 'at->')}    return (void)user, 0;\n}`;
+  return { names, q, v, n, steps, length, draw, rods, force: acting.length ? force : [], end, timed: hasTime, c };
 }

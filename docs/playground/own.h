@@ -48,6 +48,15 @@ static double own_pow(double x, double a)
         if (k & 1) y *= square;
     return a < 0 ? 1/y : y;
 }
+/* atan: from |x| <= 1 to a quarter of the angle, below 0.2, and the series there.              */
+static double own_atan(double x)
+{
+    if (fabs(x) > 1) return (x < 0 ? -1.5707963267948966 : 1.5707963267948966) - own_atan(1/x);
+    double y = x/(1 + __builtin_sqrt(1 + x*x)), sum = 0;
+    y = y/(1 + __builtin_sqrt(1 + y*y));
+    for (int k = 27; k > 1; k -= 2) sum = (1.0/k - sum)*y*y;
+    return 4*(y - y*sum);
+}
 #define own_sin(x) bounded_sine(x, 0)
 #define own_cos(x) bounded_sine(x, 1)
 
@@ -84,15 +93,16 @@ static int own_sentence(char *to, size_t room, const char *form, ...)
 enum { OWN_MOST = 600,                 /* operations                                       */
        OWN_INPUTS = 1 + 2*LAGRANGIAN_MOST, OWN_POINTS = 12 };
 enum { OWN_CONSTANT, OWN_ADD, OWN_SUBTRACT, OWN_MULTIPLY, OWN_DIVIDE, OWN_POWER,
-       OWN_SQRT, OWN_EXP, OWN_LOG, OWN_SIN, OWN_COS, OWN_TAN };
+       OWN_SQRT, OWN_EXP, OWN_LOG, OWN_SIN, OWN_COS, OWN_TAN, OWN_ATAN };
 
-/* What the page writes: operation, operands, constant; q and v at the start; x, y of the picture. */
-static double own_typed[4*OWN_MOST + 2*LAGRANGIAN_MOST + 2*OWN_POINTS];
+/* What the page writes: operation, operands, constant; q and v at the start; x, y of the picture; where
+   the force on each coordinate is, -1 for none.                                           */
+static double own_typed[4*OWN_MOST + 3*LAGRANGIAN_MOST + 2*OWN_POINTS];
 
 static struct own {
     int        n, length, whole, points;          /* operations of L, and of the picture as well */
     struct { int op, a, b; double c; } step[OWN_MOST];
-    int        at[2*OWN_POINTS];
+    int        at[2*OWN_POINTS], force[LAGRANGIAN_MOST], forced;
     double     value[OWN_INPUTS + OWN_MOST], tangent[OWN_INPUTS + OWN_MOST];
     double     adjoint[OWN_INPUTS + OWN_MOST], bent[OWN_INPUTS + OWN_MOST];  /* bent: its tangent */
     double     slope[OWN_MOST][2], turn[OWN_MOST][2];    /* dy/da, dy/db and their tangents   */
@@ -125,6 +135,7 @@ static void own_forward(int count)
         case OWN_LOG: y = own_log(a), to_a = 1/a, second = -to_a*to_a; break;
         case OWN_SIN: y = own_sin(a), to_a = own_cos(a), second = -y; break;
         case OWN_COS: y = own_cos(a), to_a = -own_sin(a), second = -y; break;
+        case OWN_ATAN: y = own_atan(a), to_a = 1/(1 + a*a), second = -2*a*to_a*to_a; break;
         case OWN_TAN: y = own_sin(a)/own_cos(a), to_a = 1 + y*y, second = 2*y*to_a; break;
         default: break;
         }
@@ -186,7 +197,26 @@ static void own_add(const lagrangian_wanted *a)
     }
 }
 
-/* From d/dt dL/dv = dL/dq: (d2L/dv2) a = dL/dq - d2L/dvdq v - d2L/dvdt                      */
+/* f += the forces that are typed                                                          */
+static void own_force(double t, const double *q, const double *v, double *f, int stride)
+{
+    own_state(t, q, v);
+    own_forward(own.whole);
+    for (int i = 0; i < own.n; ++i)
+        if (own.force[i] >= 0) f[i*stride] += own.value[own.force[i]];
+}
+
+static int own_forces(const gvi_points *x, void *user)
+{
+    double q[LAGRANGIAN_MOST], v[LAGRANGIAN_MOST];
+    for (int k = 0; k < x->count; ++k) {
+        for (int i = 0; i < x->n; ++i) q[i] = x->q[i*x->stride + k], v[i] = x->v[i*x->stride + k];
+        own_force(x->t[k], q, v, x->f + k, x->stride);
+    }
+    return (void)user, 0;
+}
+
+/* From d/dt dL/dv = dL/dq + F: (d2L/dv2) a = dL/dq - d2L/dvdq v - d2L/dvdt + F              */
 static void own_accelerate(double t, const double *q, const double *v, double *a)
 {
     const int n = own.n;
@@ -202,6 +232,7 @@ static void own_accelerate(double t, const double *q, const double *v, double *a
     memcpy(own.tangent + 1, v, sizeof(double)*(size_t)n);
     own_sweep();
     for (int i = 0; i < n; ++i) a[i] = own.adjoint[1 + i] - own.bent[1 + n + i];
+    if (own.forced) own_force(t, q, v, a, 1);
     if (gvi_lu_factor(n, M, pivot) == GVI_OK) gvi_lu_solve(n, M, pivot, a);
     else a[0] = NAN;
 }
@@ -223,6 +254,7 @@ static void own_build(scene_setup *s)
     const char *what = own.n ? lagrangian_text(&own.L) : "";
     scene_add(s, "L", what, "lagrangian_effect(&L)", 1, lagrangian_effect(&own.L));
     INSTEAD(s, ((gvi_effect){ 0 }));
+    if (own.forced) ADD(s, "F", "forces as typed", 1, ((gvi_effect){ .kind = GVI_FORCE, .points = own_forces }));
     s->mass = lagrangian_mass(&own.L);
     s->mass_text = "lagrangian_mass(&L)";
     s->accelerate = own_accelerate;
@@ -272,6 +304,10 @@ static const char *own_set(int n, int length, int whole, int points, double span
         own.step[k].c = in[3];
     }
     for (int i = 0; i < 2*points; ++i) own.at[i] = (int)start[2*LAGRANGIAN_MOST + i];
+    for (int i = own.forced = 0; i < n; ++i) {
+        own.force[i] = (int)start[2*LAGRANGIAN_MOST + 2*OWN_POINTS + i];
+        own.forced |= own.force[i] >= 0;
+    }
     return lagrangian_init(&own.L, (lagrangian_function){ n, own_add }, NULL, 0, start, start + n);
 }
 

@@ -3,19 +3,8 @@
 const $ = id => document.getElementById(id);
 const now = () => performance.now();
 
-/* ---- the program ---- */
-if (!window.WebAssembly || !window.DecompressionStream) {
-  $('about').textContent = 'This page needs a browser with WebAssembly and DecompressionStream (2023 or later).';
-  return;
-}
-const packed = new Uint8Array(WASM.length / 5 * 4);
-for (let k = 0, v = 0; k < WASM.length; k++) {           // as build.mjs wrote it
-  const c = WASM.charCodeAt(k);
-  v = v * 85 + c - 40 - (c > 60) - (c > 92);
-  if (k % 5 === 4) new DataView(packed.buffer).setUint32((k - 4) / 5 * 4, v), v = 0;
-}
-const plain = await new Response(new Blob([packed.subarray(packed.indexOf(31))]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
-const { exports: x } = await WebAssembly.instantiate(await WebAssembly.compile(plain), {});
+/* ---- the program: PROGRAM, its octets, as page.html unpacks it ---- */
+const { exports: x } = await WebAssembly.instantiate(await WebAssembly.compile(PROGRAM), {});
 x._initialize?.();
 const numbers = new Float64Array(x.memory.buffer), octets = new Uint8Array(x.memory.buffer);
 const utf8 = new TextDecoder();
@@ -95,6 +84,13 @@ x(0) = 1, y(0) = 0
 vy(0) = 0.4
 end = 40
 draw = (0, 0), (x, y)`,
+  'a pendulum with friction and a motor': `g = 9.81, b = 0.4, A = 2
+L = θ'^2/2 + g cos(θ)
+Fθ = A cos(3t) - b θ'           # a force on θ
+
+θ(0) = 1
+end = 30
+draw = (0, 0) (sin(θ), -cos(θ))`,
   'a pendulum whose pivot shakes': `A = 0.1, w = 60, g = 9.81    # Kapitza: it stays upright
 y = A*cos(w*t)
 L = va^2/2 - A*w*sin(w*t)*va*sin(a) + g*cos(a)
@@ -109,6 +105,7 @@ function put(r) {
   r.steps.forEach((s, k) => numbers.set(s, room + 4 * k));
   numbers.set([...r.q, ...r.v], room + 2400);
   numbers.set(r.draw, room + 2416);
+  numbers.set(r.names.map((_, i) => r.force[i] ?? -1), room + 2440);
   return text(x.own_take(r.n, r.length, r.steps.length, r.draw.length / 2, r.end));
 }
 /* Takes what is typed: the sentence that says what is wrong, or ''. What ran before goes on then. */
@@ -124,13 +121,15 @@ function own(typed) {
   const bits = list => list.reduce((sum, i) => sum | 1 << i, 0);
   Object.assign(mine, { n: r.n, span: r.end, speed: r.end / 10, bodies: points.length, rods, timed: r.timed, text: r.c, radius: points.map(i => still(i) ? rods.length ? 4 : 10 : 7),
     fixed: bits(points.filter(still)), trails: bits(ends.filter(i => !still(i))), mark: Math.random() });
-  mine.effects[0].what = text(x.scene_text(mine.i, 11, 0));
+  const one = { name: 'L', what: text(x.scene_text(mine.i, 11, 0)), code: 'lagrangian_effect(&L)', on: 1, kind: x.scene_number(mine.i, 22, 0) };
+  mine.effects = r.force.length ? [one, { name: 'F', what: 'forces as typed', code: '{ .kind = GVI_FORCE, .points = force }', on: 1, kind: 1 }] : [one];
+  mine.first = r.force.length ? 3 : 1;
   return tryOut(), '';
 }
 /* A run by the dial: its steps tell one that suits, and where it goes is what is seen. */
 function tryOut() {
   const stop = now() + 150, low = [Infinity, Infinity], high = [-Infinity, -Infinity];
-  let t = 0, steps = 0, status = open(2, { scene: mine.i, on: 1, p: [], degree: 8, rule: 'gauss', tol: 0, dial: 1e-12 });
+  let t = 0, steps = 0, status = open(2, { scene: mine.i, on: mine.first, p: [], degree: 8, rule: 'gauss', tol: 0, dial: 1e-12 });
   const look = p => { for (let i = 0; i < 2 * mine.bodies; i++) { const v = numbers[p / 8 + 3 * (i >> 1) + i % 2]; if (isFinite(v)) low[i % 2] = Math.min(low[i % 2], v), high[i % 2] = Math.max(high[i % 2], v); } };
   look(x.world_place(2, 0));
   while (!status && t < mine.span && now() < stop) {
@@ -219,8 +218,8 @@ function complain(call, status, more = '', world = 0, why = '') {
   const e = status === -9 || status === -10 || status === -11 || status < -13 ? x.world_number(world, 11, 0) : -1;
   $('alert-text').textContent = `${call}: ${why || text(x.status_text(world, status))}${e >= 0 ? ` (${scene().effects[e].name})` : ''}. ${more}`;
   $('alert').dataset.status = status;
-  $('halve').hidden = set.dial || !/^-(8|9|10|14)$/.test(status);
-  $('alert-clock').hidden = scene().clock < 0 || clocked();
+  $('halve').hidden = why || set.dial || !/^-(8|9|10|14)$/.test(status);
+  $('alert-clock').hidden = why || scene().clock < 0 || clocked();
   pause();
 }
 
@@ -486,6 +485,10 @@ function showNumbers() {
   const e = curves.gvi.length ? Math.abs(x.world_number(0, 20, 0) - E0) / Escale : 0;
   $('energy').textContent = live.ok ? short(e) : '–';
   $('energy-word').textContent = s.timed || s.effects.some((a, k) => a.kind === 1 && set.on >> k & 1) ? 'energy changed by' : 'energy off by';
+  /* the energy's error, from 1e-16 at the foot to 1, over the logarithm of the time so far */
+  const first = Math.max(0, curves.gvi[0]?.[0] ?? 0), wide = Math.max(1, (curves.gvi.at(-1)?.[0] ?? 0) - first);
+  const path = curve => curve.map(([k, error], i) => `${i ? 'L' : 'M'}${(118 * Math.max(0, k - first) / wide + 1).toFixed(1)} ${(21 - 20 * Math.min(1, Math.max(0, 1 + Math.log10(error || 1e-17) / 16))).toFixed(1)}`).join('');
+  $('trace').innerHTML = (ghost.on ? `<path d="${path(curves.rk4)}" stroke="var(--rk4)"/>` : '') + `<path d="${path(curves.gvi)}" stroke="var(--gvi)"/>`;
   const total = s.effects.map((_, k) => (live.base[k] || 0) + x.world_number(0, 3, k)), seconds = (time - lastCounts.at) / 1000;
   s.effects.forEach((_, k) => {
     const row = $('rows').children[k];
@@ -924,6 +927,17 @@ async function copy(what, button) {
   setTimeout(() => { button.textContent = before; $('said').textContent = ''; }, 1200);
 }
 $('copy').onclick = () => copy($('code').textContent, $('copy'));
+$('save').onclick = () => {
+  const sheet = document.createElement('canvas'), paint = sheet.getContext('2d'), link = document.createElement('a');
+  sheet.width = canvas.width; sheet.height = canvas.height;
+  paint.fillStyle = colours.card;
+  paint.fillRect(0, 0, sheet.width, sheet.height);
+  paint.drawImage(canvas, 0, 0);
+  link.href = sheet.toDataURL('image/png');
+  link.download = `${scene().name}.png`;
+  link.click();
+  $('said').textContent = 'Saved';
+};
 $('share').onclick = () => { remember(); copy(location.href, $('share')); };
 const THEMES = [['', 'Auto', 'as the system'], ['light', 'Light', 'light'], ['dark', 'Dark', 'dark']];
 let theme = 0;

@@ -260,7 +260,7 @@ static int rival_begin(rival *r, int method, int n, const scene_setup *s, unsign
     r->setup = s;
     r->on = 0;
     r->effects = r->fresh = 0;
-    r->reads_velocity = s->accelerate && s->row[0].effect.kind != GVI_POTENTIAL;
+    r->reads_velocity = s->accelerate && (s->row[0].effect.kind != GVI_POTENTIAL || s->rows > 1);
     r->evaluations = 0;
     r->t = t;
     for (int e = 0; e < s->rows; ++e) {

@@ -12,10 +12,11 @@ export const EXAMPLES = new Function(`return ${/const EXAMPLES = (\{[^]*?\n\});/
 
 /* What own_take is given, and what own_room holds then. */
 export function handedOver(text) {
-  const r = lagrange(text), room = new Float64Array(2440);
+  const r = lagrange(text), room = new Float64Array(2448);
   r.steps.forEach((s, k) => room.set(s, 4*k));
   room.set([...r.q, ...r.v], 2400);
   room.set(r.draw, 2416);
+  room.set(r.names.map((_, i) => r.force[i] ?? -1), 2440);
   return { r, room, given: [r.n, r.length, r.steps.length, r.draw.length/2, r.end] };
 }
 
@@ -51,7 +52,8 @@ function test(wasm, build) {
   /* values: as a constant, and at rest the energy is -L */
   for (const [typed, js] of [['2^3^2', 2**9], ['-2^2', -4], ['2^-1', 0.5], ['6/3*2', 4], ['1 - 2 - 3', -4], ['1 - (2 - 3)', 2], ['2*-3', -6], ['--2', 2],
     ['.5e1 + 1.', 6], ['1e-3', 1e-3], ['pow(2, 0.5)', Math.SQRT2], ['sqrt(2)*sin(1) - cos(2)/tan(0.3)', Math.SQRT2*Math.sin(1) - Math.cos(2)/Math.tan(0.3)],
-    ['exp(log(3))', 3], ['2\n  *3', 6], ['3 # *4\n + 1', 4], ['pi', Math.PI], ['(1+2)*(3+4)', 21], ['8/2/2', 2], ['2*3^2', 18], ['1/2', 0.5]]) {
+    ['exp(log(3))', 3], ['2\n  *3', 6], ['3 # *4\n + 1', 4], ['pi', Math.PI], ['(1+2)*(3+4)', 21], ['8/2/2', 2], ['2 pi', 2*Math.PI], ['2(3 + 4)', 14], ['(1 + 2)(3 + 4)', 21], ['3²', 9], ['2·3 × 4', 24], ['5 − 2', 3], ['sin^2(0.3)', Math.sin(0.3)**2], ['cos²(0.3)', Math.cos(0.3)**2], ['ln(3)', Math.log(3)],
+    ['cosh(0.7) - sinh(0.7)', Math.exp(-0.7)], ['tanh(0.4)', Math.tanh(0.4)], ['atan(0.3) + atan(5)', Math.atan(0.3) + Math.atan(5)], ['asin(0.6)', Math.asin(0.6)], ['π', Math.PI], ['2*3^2', 18], ['1/2', 0.5]]) {
     check(`end = ${typed}`, Math.abs(lagrange(`L = vx^2 x(0) = 0 end = ${typed.startsWith('-') || js < 0 ? `100 + (${typed})` : typed}`).end - (js < 0 || typed.startsWith('-') ? 100 + js : js)) <= 1e-14*Math.max(100, Math.abs(js)), typed);
     /* the same with a coordinate in the place of each number that is not an exponent */
     const r = take(`u = y/y\nL = vx^2/2 + vy^2/2 + u*(${typed})\nx(0) = 0, y(0) = 3`);
@@ -60,7 +62,7 @@ function test(wasm, build) {
   }
   const at = 0.7, b = 1.3;
   for (const [typed, js] of [['x^y', at**b], ['x^3', at**3], ['x^-2.5', at**-2.5], ['x^0.3', at**0.3], ['2^x', 2**at], ['pow(x, y)', at**b], ['sin(x)/cos(y)', Math.sin(at)/Math.cos(b)], ['tan(x) - exp(-y)', Math.tan(at) - Math.exp(-b)],
-    ['log(x*y)', Math.log(at*b)], ['sqrt(x + y)', Math.sqrt(at + b)], ['-x^2/y', -at*at/b], ['x - y - x*y', at - b - at*b], ['exp(20*x)', Math.exp(14)], ['exp(-30*y)', Math.exp(-39)], ['log(1e-9*x)', Math.log(7e-10)]]) {
+    ['log(x*y)', Math.log(at*b)], ['sqrt(x + y)', Math.sqrt(at + b)], ['-x^2/y', -at*at/b], ['x - y - x*y', at - b - at*b], ['exp(20*x)', Math.exp(14)], ['exp(-30*y)', Math.exp(-39)], ['log(1e-9*x)', Math.log(7e-10)], ['atan(x) + atan(-y*9)', Math.atan(at) - Math.atan(9*b)], ['tanh(x)*cosh(y)', Math.tanh(at)*Math.cosh(b)], ['3x y^2 sin(x)', 3*at*b*b*Math.sin(at)]]) {
     const r = take(`L = vx^2/2 + vy^2/2 + (${typed})\nx(0) = ${at}, y(0) = ${b}`);
     open(OWN, 1);
     check(`${typed}: its value`, !r.why && Math.abs(x.world_number(1, 20, 0) + js) <= 8e-16*Math.max(1, Math.abs(js))*4, r.why, x.world_number(1, 20, 0), js);
@@ -68,7 +70,7 @@ function test(wasm, build) {
 
   /* bad input: the place, and why */
   for (const [typed, line, column, why] of [
-    ['L = 2x', 1, 6, /sign such as \* is missing before "x"/], ['x(0) = 1\nL = vx^2 -', 2, 11, /not the end/], ['x(0) = 1\nL = (vx^2', 2, 10, /"\)" is missing before the end/],
+    ['L = 2\nx', 2, 1, /sign such as \* is missing before "x"/], ['L = 2x + vy^2\ny(0) = 1', 1, 6, /x is not known/], ['L = sin^x(x)\nx(0) = 1', 1, 9, /whole number belongs here/], ['F = 1\nL = vx^2 + vy^2\nx(0) = 1, y(0) = 1', 1, 1, /a force on x is Fx/], ['x(0) = 1\nL = vx^2 -', 2, 11, /not the end/], ['x(0) = 1\nL = (vx^2', 2, 10, /"\)" is missing before the end/],
     ['L = vx^2/2 - abs(x)\nx(0) = 1', 1, 14, /abs has a kink, and L has to be smooth/], ['L = foo(x)', 1, 5, /foo is not a function; there are sqrt, exp/],
     ['x(0) = 1\nL = vx^2 - k*x', 2, 12, /k is not known/], ['L = vx^2 $', 1, 10, /not with "\$"/], ['L = vx^2/2', 1, 11, /no coordinate/], ['x(0) = 1', 1, 9, /"L = \.\.\." is missing/],
     ['x(0) = y\ny(0) = 1\nL = vx^2', 1, 1, /x\(0\) has to be a number: it depends on what moves/], ['L = vx^2 + a\na = b\nb = a\nx(0) = 1', 3, 5, /a depends on itself/],
@@ -81,7 +83,7 @@ function test(wasm, build) {
     check(`${JSON.stringify(typed)} is refused`, said.startsWith(`Line ${line}, column ${column ?? ''}`) && why.test(said), said);
   }
   /* whatever is typed: a sentence with its place, or operations whose operands come before them */
-  const WORDS = ['L', '=', 'x', 'vx', 'y', 'vy', '(', ')', '(0)', '=', '1', '2.5', '+', '-', '*', '/', '^', ',', '\n', 'sin', 'pow', 't', 'pi', 'end', 'draw', 'a', '#', '$', 'L = vx^2', 'x(0) = 1', 'q', 'v', 'q(0)=', '\'', '.', 'e5'];
+  const WORDS = ['L', '=', 'x', 'vx', 'y', 'vy', '(', ')', '(0)', '=', '1', '2.5', '+', '-', '*', '/', '^', ',', '\n', 'sin', 'pow', 't', 'pi', 'end', 'draw', 'a', '#', '$', 'L = vx^2', 'x(0) = 1', 'q', 'v', 'q(0)=', '\'', '.', 'e5', 'θ', 'x\'', '²', 'Fx', 'ln', 'cosh'];
   let seed = 1, whole = 0, wrong = '';
   for (let k = 0; k < 100000; k++) {
     let typed = k % 2 ? 'x(0) = 1 L = vx^2/2 + ' : '';
@@ -89,7 +91,7 @@ function test(wasm, build) {
     try {
       const r = lagrange(typed), inputs = 1 + 2*r.n;
       whole++;
-      if (!r.steps.every(([op, a, b], i) => op <= 11 && a < inputs + i && b < inputs + i) || !r.draw.every(p => p < inputs + r.steps.length) || !r.length) wrong = typed;
+      if (!r.steps.every(([op, a, b], i) => op <= 12 && a < inputs + i && b < inputs + i) || !r.draw.every(p => p < inputs + r.steps.length) || !r.length) wrong = typed;
     } catch (e) { if (!/^Line \d+, column \d+: .{10,200}\.$/s.test(e.message)) wrong = `${typed}: ${e.message}`; }
   }
   check('whatever is typed', !wrong && whole > 1000, JSON.stringify(wrong), whole);
@@ -124,8 +126,18 @@ function test(wasm, build) {
     check('an oscillator driven: its closed form', far(driven, [(Math.sin(6) - 2*Math.sin(3))/-3]) < 1e-12, driven);
   }
 
+  /* with forces: x'' + 2 c x' + x = sin 2t, from rest */
+  const c = 0.1, [A, B] = [-3, -4*c].map(a => a/(9 + 16*c*c)), w = Math.sqrt(1 - c*c);
+  for (const [typed, method] of [['Fx', 0], ['Fx', 3], ['F', 0]]) {
+    const forced = take(`L = x'²/2 - x²/2\n${typed} = sin(2t) - ${2*c} x'\nx(0) = 0`);
+    const off = far(end(OWN, 3, method ? 1e-13 : 0.05, 3, method), [A*Math.sin(6) + B*Math.cos(6) - Math.exp(-3*c)*(B*Math.cos(3*w) + (2*A + c*B)/w*Math.sin(3*w))]);
+    check(`a force typed, ${typed}: its closed form`, !forced.why && off < 1e-12, forced.why, off);
+  }
+  take('θ = 1\nL = x\'^2/2 + y\'^2/2 - θ x\nFy = -y\'\nx(0) = 0, y(0) = 0, y\'(0) = 1');
+  check('a force on one of two', far(end(OWN, 3, 0.05, 1), [-0.5, 1 - Math.exp(-1)]) < 1e-13);
+
   /* second derivatives of everything: where v is within f, DOP853 needs them and Galerkin steps do not */
-  for (const f of ['sqrt(u)', 'exp(u)', 'log(u)', 'sin(u)', 'cos(u)', 'tan(u)', 'u^3', 'u^-1.5', 'u^0.3', '2^u', 'u^u', '1/u', 'u*u/(1 + u)', 'u*t - u']) {
+  for (const f of ['sqrt(u)', 'exp(u)', 'log(u)', 'sin(u)', 'cos(u)', 'tan(u)', 'u^3', 'u^-1.5', 'u^0.3', '2^u', 'u^u', '1/u', 'u*u/(1 + u)', 'u*t - u', 'atan(u)', 'atan(9*u)', 'sinh(u)', 'cosh(u)', 'tanh(u)', 'asin(u/2)', 'sin^3(u)']) {
     take(`u = 0.7 + x/8 + vx/9 + y*vy/7\nL = 3*vx^2 + 2*vy^2 - x^2 + x*y + ${f}\nx(0) = 0.3, y(0) = 0.2, vx(0) = 0.1 vy(0) = -0.2`);
     const [ours, theirs] = [end(OWN, 1, 0.05, 1), end(OWN, 1, 1e-13, 1, 3)], apart = far(ours, theirs);
     check(`${f}: its second derivatives`, apart < 1e-11, apart);
@@ -136,6 +148,7 @@ function test(wasm, build) {
     'whole numbers': 'n = 3\nL = 1/2*vx^2 + 3/2*x*vx - 1/3*x^4 + 7/2 - (1 + 2)/4*x^2 + 2^-1*x - n/2*x^2\nx(0) = 1 end = 2',
     'names of C': 'int = 2, user = 1, main = 3\nL = vdouble^2/2 - int*double^2*user/main + v^2/2 - q^2\ndouble(0) = 1, q(0) = 0.5 end = 2',
     'powers': 'L = vx^2/2*(1 + x^2)^1.5 - 2^x - x^-1 - pow(x, 3) - (x + 2)^x + tan(x/4) - log(x)*exp(-x)\nx(0) = 1 end = 1',
+    'forces': "at = 2, int = 0.5\nθ = x - y\nL = x'²/2 + at y'²/2 - cosh(θ) + sin²(x)\nFx = -int x' + sin(t) θ\nFy = tanh(x) - at^2 atan(y')\nx(0) = 0.4, y(0) = 0 end = 2",
     'order': 'L = vx^2/2 + a - b\nb = a - (x - a*2)/(3*x/2)\na = -x^2/2 - (-x)\nx(0) = 0.4 end = 1' };
   const cc = (...given) => execFileSync(process.env.CC || 'cc', ['-std=c99', '-I.', '-Iexamples', ...given], { stdio: ['ignore', 'inherit', 'inherit'] });
   const library = join(build, 'typed-gvi.o');
@@ -144,11 +157,11 @@ function test(wasm, build) {
     const r = take(typed), source = join(build, 'typed.c'), binary = join(build, 'typed'), steps = 2000;
     const chaos = name === 'a double pendulum' || name === 'a pendulum on a cart' ? 1e-10 : 1e-12, span = Math.min(r.end, 5);
     writeFileSync(source, `#include "tools/lagrangian.h"\n${r.c}\nint main(void)\n{\n    static double memory[1 << 17];\n    static lagrangian L;\n    const double q[] = { ${r.q} }, v[] = { ${r.v} };
-    const char *wrong = lagrangian_init(&L, own, NULL, 0, q, v);\n    const gvi_effect effect = lagrangian_effect(&L);\n    const gvi_desc desc = { .n = ${r.n}, .degree = 4, .mass = lagrangian_mass(&L), .effects = &effect, .effect_count = 1 };
+    const char *wrong = lagrangian_init(&L, own, NULL, 0, q, v);\n    const gvi_effect effect[] = { lagrangian_effect(&L)${r.force.length ? ', { .kind = GVI_FORCE, .points = force }' : ''} };\n    const gvi_desc desc = { .n = ${r.n}, .degree = 4, .mass = lagrangian_mass(&L), .effects = effect, .effect_count = ${r.force.length ? 2 : 1} };
     gvi_stepper st;\n    if (wrong) return puts(wrong), 1;\n    gvi_init(&st, &desc, memory, sizeof memory);\n    gvi_start(&st, 0, q, v);\n    for (int k = 0; k < ${steps}; ++k) gvi_step(&st, ${span}.0/${steps});\n    for (int i = 0; i < ${r.n}; ++i) printf("%.17g\\n", st.q[i]);\n    puts(lagrangian_text(&L));\n    return st.status;\n}\n`.replace(/(\.\d+)\.0\//, '$1/'));
     try {
       cc('-Wall', '-Wextra', '-Wpedantic', '-Wconversion', '-Werror', source, library, '-o', binary, '-lm');
-      const said = execFileSync(binary, { encoding: 'utf8' }).trim().split('\n'), kind = said.pop(), q = said.map(Number), here = end(OWN, 1, span/steps, span), off = far(here, q);
+      const said = execFileSync(binary, { encoding: 'utf8' }).trim().split('\n'), kind = said.pop(), q = said.map(Number), here = end(OWN, r.force.length ? 3 : 1, span/steps, span), off = far(here, q);
       check(`${name}: the C ends where the page does`, !r.why && kind === r.kind && off < chaos*Math.max(1, ...q.map(Math.abs)), r.why, kind, off, q, here);
     } catch (e) { check(`${name}: the C compiles`, false, e.message, r.c); }
   }
