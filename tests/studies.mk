@@ -2,7 +2,7 @@
 
 .PHONY: headers-quick headers symbols chapters docs-check reference bound float instructions prices usable languages boards sanitize sanitized any_processor \
         ensemble deps-ensemble embedded-page tolerances firmware deps-firmware fuzz fuzz-short fuzz-rolling fuzz-rolling-short fuzz-contact fuzz-contact-short size stats compare everywhere deps-everywhere \
-        cost-dial cost-rebound cost-horizon cost-constraints cost-rolling cost-contact kicks points from-l typed mycost cost-embedded hard theorems mutants ablate coverage covered
+        cost-dial cost-rebound cost-packages cost-horizon cost-constraints cost-rolling cost-contact kicks points from-l typed mycost cost-embedded hard theorems mutants ablate coverage covered
 
 ## header       build/gvi.h without chapters: make header WITHOUT="NEWTON DIAL"; CORE=1: none of them (unifdef)
 .PHONY: header header-sizes deps-header
@@ -234,6 +234,16 @@ cost-rebound:
 	$(Q)$(MAKE) --no-print-directory BUILD=$(BUILD)/dial COST_CFLAGS=-O2 $(BUILD)/dial/cost/problems.o
 	$(Q)sh tests/tools/cost_rebound.sh $(BUILD)/dial '$(REBOUND)'
 	$(Q)sh tests/tools/cost_record.sh $(BUILD)/dial '$(RECORD)' rebound
+
+#: cost-packages gvi.h by its dial against GSL's rk8pd and Boost's rkf78, where libgsl-dev and libboost-dev are (two minutes);
+#:              RECORD=--record puts the table into docs/cost.md
+cost-packages:
+	$(Q)$(MAKE) --no-print-directory BUILD=$(BUILD)/dial COST_CFLAGS=-O2 $(BUILD)/dial/cost/problems.o
+	$(Q)$(CXX) -std=c++20 -O2 -Wall -Wextra -Wno-missing-field-initializers -I. tests/cost/packages.cpp $(BUILD)/dial/cost/problems.o \
+	    -o $(BUILD)/dial/cost/packages -lgsl -lgslcblas $(LDLIBS)
+	$(Q)$(BUILD)/dial/cost/packages $(BUILD)/dial/cost/packages.md
+	$(Q)cat $(BUILD)/dial/cost/packages.md
+	$(Q)sh tests/tools/cost_record.sh $(BUILD)/dial '$(RECORD)' packages
 
 #: cost-horizon the outer solar system at 1, 10 and 100 times its length
 cost-horizon: $(BUILD)/cost/cost
