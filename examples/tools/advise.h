@@ -293,7 +293,7 @@ static inline double advise_trial(struct advise *x, advise_setting *s)
             s->cost = cost*s->steps/steps;
         }
         if (error < 1.2*x->target && error > x->target/8) return s->cost;
-        if (cost*exact/steps > 3*x->best && error < 0.03 && !run.newton) return s->cost;    // too dear
+        if (cost*exact/steps > 3*x->best && error < 0.03 && !run.newton) return s->cost;    // takes too long
         if (run.seconds > x->o->seconds && error > x->target) return s->cost;
         before = steps;
         error_before = error;
@@ -322,7 +322,7 @@ static inline void advise_try(struct advise *x, advise_setting s)
     advise_name(&s, name, sizeof name);
     if (cost < HUGE_VAL)
         snprintf(line, sizeof line, "  %-44s h = %-10.4g cost %.3g", name, x->window/s.steps, cost);
-    else snprintf(line, sizeof line, "  %-44s not to be had, or too dear", name);
+    else snprintf(line, sizeof line, "  %-44s not to be had, or too slow", name);
     advise_say(x, line);
 }
 
@@ -514,7 +514,7 @@ static inline int advise_find(const advise_case *a, const advise_options *o, adv
             x.pinned = GVI_AUTO;
             steps = advise_reference(&x, x.window, goal, a->h, x.reference);
         }
-        if (!(steps > 0) && x.window > 64*a->h && !shrunk++) {                   // dear, too
+        if (!(steps > 0) && x.window > 64*a->h && !shrunk++) {                   // takes long, too
             x.window = fmax(x.window/16, 32*a->h);
             advise_pin(&x);
             continue;
