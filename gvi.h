@@ -3814,7 +3814,8 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
    With `all` it is 32 eps of the largest amplitude: where the iteration contracts, h^2 dF/dQ
    between amplitudes is below 1, so the rounding of one coordinate makes no more of another: a
    light body midway between two heavy ones.  To both comes what constraints add: to Q the rounding
-   of g as well, which a velocity must not show.                                               */
+   of g as well, to V and P only where iterations are given, since an iteration that went on for
+   less would leave its last change there.                                                     */
 GVI__CALLED gvi_real gvi__excess(const gvi_stepper *st, gvi_real h, const gvi__stage *stage,
                                  int all)
 {
@@ -3830,7 +3831,7 @@ GVI__CALLED gvi_real gvi__excess(const gvi_stepper *st, gvi_real h, const gvi__s
 
     for (const gvi__stage *y = stage; y < stage + st->in.stages; ++y)
         for (int i = 0; i < st->n && !y->quiet; ++i) {
-            const int moves = all && y->of == GVI__OF_Q;
+            const int moves = all && (y->of == GVI__OF_Q || st->in.desc.iterations > 0);
             const gvi_real m = gvi__inertia(st, i), unit = gvi__amplitude_of(st, h, y, m),
                            size = all ? largest : unit*gvi__size_of_row(st, y, i),
                            push = parts ? gvi__place_push(st, h, i, m, eps, moves) : 0;
