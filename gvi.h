@@ -3269,15 +3269,15 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 
 /* PLACES of the fixed point: 1) stages; 2) sources, and tables of the predictor; 3) before, between
    and behind the new rows, `between` adds a change; 4) F in place of the effects, and once it is
-   the last F; 5) is there a change that the rows do not show?  Is the rounding of constraints in
-   all of them?  The move of coordinate i that constraints add to the floor.                   */
+   the last F; 5) is there a change that the rows do not show?  Do rows roll?  The move of
+   coordinate i that constraints add to the floor.                                             */
 static void gvi__place_stages(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                               struct gvi__stage *stage);
 static gvi_status gvi__place_predict(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                      int extrapolate);
 static gvi_status gvi__place_evaluate(gvi_stepper *st, const gvi__origin *from, gvi_points *at);
 static int gvi__place_moves(const gvi_stepper *st);
-static int gvi__place_holds(const gvi_stepper *st);
+static int gvi__place_rolls(const gvi_stepper *st);
 #ifndef GVI_NO_MOMENTA
 static gvi_real gvi__place_between(gvi_stepper *st);
 #else
@@ -3893,13 +3893,13 @@ static void gvi__note(gvi_stepper *st, gvi__progress *p, gvi_real D)
 
 /* What falls goes on.  What makes no new least is rounding below the floor: below a row's own at
    once, below that of all rows after a while, which as a rule is above what a row can reach.
-   What is above it and falls by less than a bit, time after time, does not converge.  Under
-   constraints the rounding of g is in every D, and shows sooner.                              */
+   What is above it and falls by less than a bit, time after time, does not converge.  Under rows
+   that roll the rounding of P is in every D, and shows sooner.                                */
 static int gvi__rests(gvi_stepper *st, gvi__progress *p, gvi_real h, const gvi__stage *stage)
 {
-    const int patience = gvi__parts(&st->in) && gvi__place_holds(st) ? 0 : 1,
-              long_since = p->idle > 1 + 3*patience, poor = gvi__is_poor(p),
-              still = p->idle > patience && !(gvi__parts(&st->in) && gvi__place_moves(st)),
+    const int rolls = gvi__parts(&st->in) && gvi__place_rolls(st),
+              long_since = p->idle > 4 - 3*rolls, poor = gvi__is_poor(p),
+              still = p->idle > 1 - rolls && !(gvi__parts(&st->in) && gvi__place_moves(st)),
               slow = st->in.turns && p->used - p->idle >= GVI__SLOW,
               rest = slow ? GVI__DIVERGES : GVI__ONCE_MORE;
 
@@ -10002,9 +10002,10 @@ static gvi_status gvi__place_evaluate(gvi_stepper *st, const gvi__origin *from, 
     return status;
 }
 
-static int gvi__place_holds(const gvi_stepper *st)
+static int gvi__place_rolls(const gvi_stepper *st)
 {
-    GVI__CONSTRAINTS_ON(return 1)
+    GVI__CONSTRAINTS_ON(return gvi__rolls(st))
+    (void)st;
     return 0;
 }
 
