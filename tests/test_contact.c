@@ -612,6 +612,7 @@ TEST(impacts_never_gain_energy)
               (real[]){ 0, 0 }, v);
         const gvi_status status = contact_step(&c, R(0.01));
         if (status == (gvi_status)CONTACT_E_JAMMED && c.in_turn) continue;    // e = 1 in a wedge, ten thousand in turn
+        if (status) print_error("run %d: %s\n", run, contact_why(&c, status));
         assert_int_equal(status, 0);
         for (int i = 0; i < 2; ++i) was += m[i]*v[i]*v[i]/2, is += c.st.p[i]*c.st.p[i]/m[i]/2;
         assert_between(-64*EPS, is, was*(1 + 4000*EPS));
