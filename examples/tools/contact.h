@@ -100,7 +100,7 @@ typedef struct contact {
     gvi_stepper      probe;                /* private: of degree 1 and never started, for M^-1            */
     gvi_desc         probe_desc;
     contact_row      row[CONTACT_TOUCH];
-    contact_state    saved[2];             /* before the call; before the step                            */
+    contact_state    saved[3];             /* before the call; before the step; before a look ahead       */
     contact_gap     *sample[2];            /* [count] at two places of the step, sample[last] the later   */
     gvi_real        *memory, *probe_memory, *q, *v, *u, *w, *at, *G, *R, *touches, *wait, *size, *lambda, h, way;
     const char      *why;
@@ -230,7 +230,7 @@ static inline size_t contact__layout(contact *c, const gvi_desc *desc, gvi_real 
         { &c->q, n }, { &c->v, n }, { &c->u, n }, { &c->w, n }, { &c->at, 2*n },
         { &c->G, CONTACT_TOUCH*n }, { &c->R, CONTACT_TOUCH*n },
         { &c->impulse, count }, { &c->touches, count }, { &c->wait, count }, { &c->size, count },
-        { &c->saved[0].x, 2*n + count }, { &c->saved[1].x, 2*n + count },
+        { &c->saved[0].x, 2*n + count }, { &c->saved[1].x, 2*n + count }, { &c->saved[2].x, 2*n + count },
         { &gap[0], 4*count }, { &gap[1], 4*count }
     };
     for (size_t i = 0; i < sizeof list/sizeof *list; ++i) {
@@ -395,22 +395,33 @@ static inline gvi_real contact__response(contact *c, int a, gvi_real rate, const
     return sum*sum/(moved[1]*moved[1]);
 }
 
-/* What presses, `closed`, and all whose gap is 0: gradients, responses and normal speeds.  What cannot respond is left
-   out, if it does not approach.  */
+/* What presses, `closed`, and all whose gap is 0.  */
 static inline gvi_status contact__touching(contact *c, int closed, contact_set *s)
 {
-    const int n = c->st.n;
     s->k = 0;
     for (int a = 0; a < c->count; ++a) {
         const contact_gap g = contact__gap(c, a, c->st.t, c->q, c->v);
         if (a != closed && contact__slot(c, a) < 0 && g.phi > g.noise) continue;
         if (s->k == CONTACT_TOUCH) return contact__fail(c, a, CONTACT_E_TOO_MANY);
-        gvi_real *G = c->G + s->k*n;
+        s->which[s->k++] = a;
+    }
+    return GVI_OK;
+}
+
+/* Gradients, responses and normal speeds.  What cannot respond is left out, if it does not approach.  */
+static inline gvi_status contact__measure(contact *c, contact_set *s)
+{
+    const int n = c->st.n, touch = s->k;
+    s->k = 0;
+    for (int i = 0; i < touch; ++i) {
+        const int k = s->k, a = s->which[i];
+        const contact_gap g = contact__gap(c, a, c->st.t, c->q, c->v);
+        gvi_real *G = c->G + k*n;
         memcpy(G, c->at + n, (size_t)n*sizeof *G);
-        const gvi_real w = contact__response(c, a, g.rate - contact__dot(n, G, c->v), G, c->R + s->k*n);
+        const gvi_real w = contact__response(c, a, g.rate - contact__dot(n, G, c->v), G, c->R + k*n);
         if (w < 0) return contact__fail(c, a, (int)w);
         if (!(w > 0) && c->way*g.rate < -g.tiny) return contact__fail(c, a, CONTACT_E_JAMMED);
-        s->which[s->k] = a, s->speed[s->k] = c->way*g.rate, s->tiny[s->k] = g.tiny, s->z[s->k] = 0;
+        s->which[k] = a, s->speed[k] = c->way*g.rate, s->tiny[k] = g.tiny, s->z[k] = 0;
         s->k += w > 0;
     }
     for (int i = 0; i < s->k; ++i)
@@ -570,42 +581,7 @@ static inline gvi_status contact__hold(contact *c, const contact_set *s, gvi_rea
     return status == GVI_E_CONSTRAINT ? contact__fail(c, s->which[0], CONTACT_E_JAMMED) : status;
 }
 
-/* Does s press where the rows do?  */
-static inline int contact__nothing_new(const contact *c, const contact_set *s)
-{
-    for (int i = 0; i < s->k; ++i) if ((s->z[i] > 0) != (contact__slot(c, s->which[i]) >= 0)) return 0;
-    return 1;
-}
-
-/* At the present state, where gap `closed` has closed, or -1: impact, and what presses after it.  Undecided: it has not
-   been open before, or the lambda of the rows of `bits` is 0.  */
-static inline gvi_status contact__resolve(contact *c, int closed, int undecided, unsigned bits)
-{
-    const gvi_real t = c->st.t, t_low = c->st.t_low;
-    contact_set s;
-    int hit = 0;
-    gvi_status status = contact__load(c);
-    if (!status) status = contact__touching(c, closed, &s);
-    if (status) return status;
-    for (int i = 0; i < s.k; ++i) hit |= s.speed[i] < -s.tiny[i] && contact__slot(c, s.which[i]) < 0;
-    if (hit) status = contact__impact(c, &s);
-    for (int i = 0; i < s.k && undecided && !hit; ++i) {
-        if (s.which[i] == closed && s.speed[i] > s.tiny[i]) contact__tell(c, CONTACT_CAPTURED, closed);
-        s.speed[i] = 0;
-    }
-    if (!status) status = contact__pressing(c, &s);
-    if (status) return status;
-
-    const int same = undecided && !hit && contact__nothing_new(c, &s);
-    for (int i = 0; i < s.k && same; ++i) {
-        const int row = contact__slot(c, s.which[i]);
-        if (row >= 0 && (bits >> row & 1u)) s.z[i] = 0;
-        if (s.which[i] == closed) s.z[i] = 1;
-    }
-    return contact__hold(c, &s, t, t_low);
-}
-
-/* ---- events within a step: fractions x of it ---- */
+/* ---- back ---- */
 
 static inline void contact__save(contact *c, contact_state *s)
 {
@@ -644,6 +620,51 @@ static inline gvi_status contact__again(contact *c, const contact_state *from, g
     if (!status && contact__abs(h) > 0) status = contact__said(c, &c->st, gvi_step(&c->st, h));
     return status ? status : contact__load(c);
 }
+
+/* What presses where that is undecided: 1/64 of the step later, on the motion as it was.  If that is nothing new, not the
+   rows of `bits`, or `closed`.  */
+static inline gvi_status contact__look_ahead(contact *c, int closed, unsigned bits, contact_set *s)
+{
+    contact__save(c, &c->saved[2]);
+    gvi_status status = contact__said(c, &c->st, gvi_step(&c->st, c->way*c->h/64));
+    if (!status) status = contact__load(c);
+    if (!status) status = contact__measure(c, s);
+    for (int i = 0; i < s->k; ++i) s->speed[i] = 0;
+    if (!status) status = contact__pressing(c, s);
+    if (!status) status = contact__back(c, &c->saved[2]);
+    if (!status) status = contact__load(c);
+
+    int same = 1;
+    for (int i = 0; i < s->k; ++i) same &= (s->z[i] > 0) == (contact__slot(c, s->which[i]) >= 0);
+    for (int i = 0; i < s->k && same; ++i) {
+        const int row = contact__slot(c, s->which[i]);
+        if (row >= 0 && (bits >> row & 1u)) s->z[i] = 0;
+        if (s->which[i] == closed) s->z[i] = 1;
+    }
+    return status;
+}
+
+/* At the present state, where gap `closed` has closed, or -1: impact, and what presses after it.  Undecided: it has not
+   been open before, or the lambda of the rows of `bits` is 0.  */
+static inline gvi_status contact__resolve(contact *c, int closed, int undecided, unsigned bits)
+{
+    const gvi_real t = c->st.t, t_low = c->st.t_low;
+    contact_set s;
+    int hit = 0;
+    s.k = 0;
+    gvi_status status = contact__load(c);
+    if (!status) status = contact__touching(c, closed, &s);
+    if (!status) status = contact__measure(c, &s);
+    for (int i = 0; i < s.k && !status; ++i) {
+        hit |= s.speed[i] < -s.tiny[i] && contact__slot(c, s.which[i]) < 0;
+        if (undecided && s.which[i] == closed && s.speed[i] > s.tiny[i]) contact__tell(c, CONTACT_CAPTURED, closed);
+    }
+    if (!status && hit) status = contact__impact(c, &s);
+    if (!status) status = undecided && !hit ? contact__look_ahead(c, closed, bits, &s) : contact__pressing(c, &s);
+    return status ? status : contact__hold(c, &s, t, t_low);
+}
+
+/* ---- events within a step: fractions x of it ---- */
 
 /* All gaps on the step's curve at x, at x = 1 those of the state, to sample[last].  */
 static inline gvi_status contact__sample(contact *c, gvi_real x)
