@@ -189,18 +189,19 @@ static inline gvi_status contact__switch(contact *c, gvi_stepper *st, int on)
 static inline contact_gap contact__gap(contact *c, int a, gvi_real t, const gvi_real *q, const gvi_real *v)
 {
     const int n = c->st.n;
-    gvi_real *G = c->at + n, own = 0, terms;
+    gvi_real *G = c->at + n, own = 0, lies = 0, moves;
     contact_gap g;
     for (int i = 0; i < n; ++i) G[i] = 0;
     c->gap(a, t, q, &g.phi, G, &own, c->user);
-    g.rate = own + contact__dot(n, G, v);
-    terms = c->size[a] + contact__abs(own)*(contact__abs(t) + c->h);
-    g.tiny = 256*contact__eps*contact__abs(own);
+    g.rate = own;
+    moves = contact__abs(own);
     for (int i = 0; i < n; ++i) {
-        terms += contact__abs(G[i])*(contact__abs(q[i]) + contact__abs(c->h*v[i]));
-        g.tiny += 256*contact__eps*contact__abs(G[i]*v[i]);
+        g.rate += G[i]*v[i];
+        moves += contact__abs(G[i]*v[i]);
+        lies += contact__abs(G[i]*q[i]);
     }
-    g.noise = 64*contact__eps*terms + c->touch;
+    g.tiny = 256*contact__eps*moves;
+    g.noise = 64*contact__eps*(lies + contact__abs(own*t) + c->h*moves + c->size[a]) + c->touch;
     return g;
 }
 
