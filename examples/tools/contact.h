@@ -658,7 +658,9 @@ static inline gvi_status contact__resolve(contact *c, int closed, int undecided,
     if (!status) status = contact__measure(c, &s);
     for (int i = 0; i < s.k && !status; ++i) {
         hit |= s.speed[i] < -s.tiny[i] && contact__slot(c, s.which[i]) < 0;
-        if (undecided && s.which[i] == closed && s.speed[i] > s.tiny[i]) contact__tell(c, CONTACT_CAPTURED, closed);
+        if (!undecided || s.which[i] != closed || s.speed[i] <= s.tiny[i]) continue;
+        s.speed[i] = 0;
+        contact__tell(c, CONTACT_CAPTURED, closed);
     }
     if (!status && hit) status = contact__impact(c, &s);
     if (!status) status = undecided && !hit ? contact__look_ahead(c, closed, bits, &s) : contact__pressing(c, &s);
