@@ -6020,19 +6020,19 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
 static void gvi__newton_note(gvi_stepper *st, gvi__descent *p, gvi_real change, gvi_real noise)
 {
     const gvi_real before = p->before;
-    if (p->earlier > 0 && change > GVI__SURE*GVI__EPS) {
+    const int sure = p->work >= 0;                 // not rounding
+    if (sure && p->earlier > 0 && change > GVI__SURE*GVI__EPS) {
         const gvi_real contraction = GVI_SQRT(change/p->earlier);
         st->counters.worst_contraction = gvi__larger(contraction, st->counters.worst_contraction);
     }
 
     const int stagnant = before > 0 && change > p->least/2, rests = p->left < GVI__MAX;
     p->stagnant = stagnant ? p->stagnant + 1 : 0;
-    if (before > 0 && !stagnant && !rests && (change > noise || change < p->rho*p->least))
+    if (before > 0 && !stagnant && !rests && (sure || change < p->rho*p->least))
         p->rho = change/p->least;
     p->least = gvi__smaller(change, p->least);
 
-    const int felt = gvi__held(st) == 0 || p->work >= 0;   // not the rounding of g
-    if (before > 0 && change > noise && felt)
+    if (before > 0 && change > noise && sure)
         st->in.newton.bend = gvi__larger(change/before, st->in.newton.bend);
 }
 
