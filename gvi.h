@@ -6036,18 +6036,20 @@ static void gvi__newton_note(gvi_stepper *st, gvi__descent *p, gvi_real change, 
         st->in.newton.bend = gvi__larger(change/before, st->in.newton.bend);
 }
 
-/* Is it rounding?  One that does not shrink is, if y, q or the residual is, or if it is small and
-   its matrix is new or has contracted here: an older one can repeat any change.  It then hides no
-   more of the error, p->left, than the change before, which shrinks on by the contraction seen. */
+/* Is it rounding?  It is if y, q or the residual is, once the contraction was seen or it does not
+   shrink; and if it does not, though small, with a matrix that is new or has contracted here: an
+   older one can repeat any change.  What is left of the error, p->left, was no more than the change
+   before times the contraction then, and shrinks on by that.                                  */
 static int gvi__newton_rests(gvi__descent *p, gvi_real change, gvi_real noise)
 {
-    const gvi_real quarter = GVI__CONTRACTS;
-    const int fresh = p->fresh & 1, proven = (fresh && p->holds) || p->rho < quarter;
-    const int small = change <= noise || (fresh && change <= GVI_SQRT(GVI__EPS));
-    if (p->stagnant > 0 && !(p->left < GVI__MAX) && (p->work < 0 || (proven && small)))
-        p->left = p->before;
+    const gvi_real quarter = GVI__CONTRACTS, rho = gvi__smaller(p->rho, quarter);
+    const int fresh = p->fresh & 1, contracts = p->rho < quarter, still = p->stagnant > 0;
+    const int small = change <= noise || (fresh && change <= GVI_SQRT(GVI__EPS)),
+              proven = small && ((fresh && p->holds) || contracts),
+              rounding = p->work < 0 ? still || contracts : still && proven;
+    if (!(p->left < GVI__MAX) && rounding) p->left = gvi__smaller(change, p->before*rho);
     if (!(p->left < GVI__MAX)) return 0;
-    p->left *= gvi__smaller(p->rho, quarter);
+    p->left *= rho;
     return 1;
 }
 
