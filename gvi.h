@@ -934,6 +934,7 @@ struct gvi__newton {                  /* N = s (n + m) unknowns                 
     gvi_real *P;                      /* [n][R] stage values                                   */
     gvi_real *J, *pivot;              /* two matrices of N: of steps, of queries               */
     gvi_real *unit;                   /* [2][s*m] of multipliers, see gvi__jacobian            */
+    gvi_real *scale;                  /* [2][n] see gvi__matrix                                */
     gvi_real *hessian;                /* [3 n*n] of one effect at one point                    */
     gvi_real *moved;                  /* [4n][R] F and P, moved and not                        */
     gvi_real  bend;                   /* worst contraction on the way to the last solution     */
@@ -4665,8 +4666,7 @@ static gvi_status gvi__check_hessian(gvi_stepper *st, gvi_points *at, gvi_real *
     if (status == GVI_OK) status = gvi__velocity_hessian(st, at, v, H);
     if (status != GVI_OK) return status;
     for (int i = 0; i < n; ++i)                    // p/v does not tell the mass
-        if (st->in.desc.mass.kind == GVI_MASS_NONE && !gvi__nonzero(v[i])
-            && gvi__nonzero(H[i*n + i]))
+        if (st->in.desc.mass.kind == GVI_MASS_NONE && gvi__nonzero(H[i*n + i]))
             st->in.watch.scale[i] = 1/GVI_SQRT(GVI_ABS(H[i*n + i]));
     status = gvi__lu_factor(n, H, H + n*n, &column);
     if (status != GVI_E_SINGULAR) return GVI_OK;
@@ -5576,6 +5576,7 @@ typedef struct gvi__matrix {
                               then has no units                                      */
     int       halves;      /* are changes taken back that make the residual larger?         */
     gvi_real *unit;        /* of the multipliers, in which the LU has their columns         */
+    gvi_real *scale;       /* 1/sqrt M_ii of a mass that terms of L make, once known; or NULL */
 } gvi__matrix;
 
 /* Where Newton's method stands: the last changes and the least; rho, the contraction seen; what
@@ -5628,6 +5629,17 @@ static size_t gvi__unknowns(const gvi_stepper *st, int k0)
     return (size_t)(st->s - k0)*(size_t)st->n + gvi__held(st);
 }
 
+// that of steps; that of queries, which must not touch what steps keep
+static gvi__matrix gvi__newton_matrix(const gvi_stepper *st, int query, int halves)
+{
+    const struct gvi__newton *newton = &st->in.newton;
+    const size_t all = gvi__unknowns(st, 0), n = (size_t)st->n, second = query ? 1 : 0;
+    const gvi__matrix J = { newton->J + second*all*all, newton->pivot + second*(all + 1), NULL, 0, 0,
+                            halves, newton->unit + second*(all - (size_t)st->s*n),
+                            newton->scale + second*n };
+    return J;
+}
+
 // what a solution of length h needs: weights and times of the points
 static void gvi__newton_points(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
@@ -5665,10 +5677,12 @@ static gvi_status gvi__newton_values(gvi_stepper *st, const gvi__origin *from)
    its grid: then the rows are exactly those of a discrete action, also as rounded.  Returns the
    norm, the sum of magnitudes over sqrt M_ii: rows of (1) are momenta, so that has one unit for
    all coordinates.  M is that of the first y.                                                 */
-static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, gvi__descent *p)
+static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, const gvi__matrix *J,
+                              gvi__descent *p)
 {
     struct gvi__private *in = &st->in;
-    const int n = st->n, R = in->R, first = !(p->norm < GVI__MAX),
+    const int n = st->n, R = in->R, k0 = J->k0, first = !(p->norm < GVI__MAX),
+              known = J->scale && st->in.desc.mass.kind == GVI_MASS_NONE,
               held = gvi__held(st) > 0;
     const gvi_real h = in->sized.h;
     gvi_real norm = 0, moved = 0, before = 0;
@@ -5676,20 +5690,23 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
     p->work = 0;
     for (int i = 0; i < n; ++i) {
         const gvi_real *P = in->newton.P + i*R, *F = in->work.F + i*R;
-        gvi_real length = 0, change = 0, was = 0;
+        gvi_real length = 0, change = 0, was = 0, momenta = 0;
         for (int k = k0; k < st->s; ++k) {
             // P - p is summed where p occurs: the rounding of P then is not in the sum
             const gvi_real base = k == 0 ? from->p[i] : 0;
-            gvi_real momentum = k == 0 ? -(h*from->p_low[i]) : 0, force = 0, size = 0;
+            gvi_real momentum = k == 0 ? -(h*from->p_low[i]) : 0, force = 0, size = 0, forces = 0;
             for (int j = 0; j < st->r; ++j) {
                 const gvi_real phi = in->table.phi[k*R + j],
                                W = (k == 0 ? 1 : 0) - in->table.Phi[k*R + j];
                 const gvi_real b = W*(in->sized.hb[j]*F[j]);
                 momentum += phi*(in->sized.hb[j]*(P[j] - base));
                 force += b;
-                size += GVI_ABS(phi*(in->table.b[j]*P[j])) + GVI_ABS(b);
+                size += GVI_ABS(phi*(in->table.b[j]*P[j]));
+                forces += GVI_ABS(b);
             }
-            if (held) gvi__held_force(st, i, k, &force, &size);
+            momenta = gvi__larger(size, momenta);
+            if (held) gvi__held_force(st, i, k, &force, &forces);
+            size += forces;
             const gvi_real sum = momentum/h - force;
             gvi_real *rest = in->newton.residual + (k - k0)*n + i;
             const gvi_real now = -(gvi_real)(2*k + 1)*sum;
@@ -5699,7 +5716,9 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
             in->newton.dy[(k - k0)*n + i] = *rest = now;
             if (size > 0 && GVI_ABS(sum)/size > p->work) p->work = GVI_ABS(sum)/size;
         }
-        if (first) in->watch.scale[i] = 1/GVI_SQRT(gvi__place_inertia(st, i));
+        in->watch.change[i] = momenta;
+        if (first && known && J->scale[i] > 0) in->watch.scale[i] = J->scale[i];
+        else if (first) in->watch.scale[i] = 1/GVI_SQRT(gvi__place_inertia(st, i));
         norm += length*in->watch.scale[i];
         moved += change*in->watch.scale[i];
         before += was*in->watch.scale[i];
@@ -5798,9 +5817,10 @@ static gvi_status gvi__evaluate_plain(gvi_stepper *st, gvi_real *F)
     return gvi__evaluate(st, &at, ~gvi__with_hessian(in, 0), in->desc.mass.kind > GVI_MASS_DENSE);
 }
 
-/* What coordinate i moves in a step: h v, or eps^(1/4) of its position where that is more, or where
-   it is at rest at 0, h^2 f/M_ii.  For its velocity h v or h^2 f/M_ii, whichever is more.  (f
-   near a pole takes positions too far.)                                                       */
+/* What coordinate i moves in a step: h v or h p/M_ii, which differences of p have to show beside a
+   term A.v; or eps^(1/4) of its position where that is more; or where it is at rest at 0,
+   h^2 f/M_ii.  For its velocity h v, h p/M_ii or h^2 f/M_ii, whichever is more.  (f near a pole
+   takes positions too far.)                                                                   */
 static gvi_real gvi__move_of(const gvi_stepper *st, int i, int by_v)
 {
     const struct gvi__private *in = &st->in;
@@ -5808,9 +5828,10 @@ static gvi_real gvi__move_of(const gvi_stepper *st, int i, int by_v)
                    hw = h*in->watch.scale[i];
     gvi_real most = 0, push = 0;
     for (int k = i*in->R; k < i*in->R + st->r; ++k) {
-        const gvi_real lengths[] = { h*GVI_ABS(in->work.V[k]), small*GVI_ABS(in->work.Q[k]) },
+        const gvi_real lengths[] = { h*GVI_ABS(in->work.V[k]), small*GVI_ABS(in->work.Q[k]),
+                                     hw*GVI_ABS(in->newton.P[k])*in->watch.scale[i] },
                        f = hw*GVI_ABS(in->work.F[k])*hw;
-        for (int l = 0; l < 2; ++l) if (lengths[l] > most) most = lengths[l];
+        for (int l = 0; l < 3; ++l) if (lengths[l] > most) most = lengths[l];
         if (f > push && gvi__finite(f)) push = f;
     }
     return push > most && (by_v || !(most > GVI__MIN/GVI__EPS)) ? push : most;
@@ -5926,6 +5947,7 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
             J->square[(size_t)i*(size_t)size + (size_t)z] *= J->unit[z - modes];
     }
 
+    if (J->scale) gvi__copy((size_t)n, st->in.watch.scale, J->scale);
     status = gvi__lu_factor(size, J->square, J->pivot, &at);
     gvi__count(&st->counters.factorizations, 1);
     if (status == GVI_OK) return GVI_OK;
@@ -5991,8 +6013,9 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
             }
             size += GVI_ABS(*y);
         }
-        const gvi_real least = GVI__EPS*change;                       // y may land on 0
-        if (!(size <= none && change <= none)) sum += change/(size < least ? least : size);
+        // y may land on 0, or be small beside a term A.v
+        const gvi_real least = gvi__larger(in->watch.change[i]*unit*unit, GVI__EPS*change);
+        if (!(size <= none && change <= none)) sum += change/gvi__larger(size, least);
         all += change/unit;
         if (size > length*unit) length = size/unit;
         if (q + h*size > largest*unit) largest = (q + h*size)/unit;
@@ -6134,7 +6157,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
         gvi_status status = gvi__newton_values(st, from);
         // one more evaluation, then done
         if (status != GVI_OK || verdict == GVI__DONE) return status;
-        if (!gvi__newton_stays(st, J, &p, gvi__residual(st, from, J->k0, &p))) continue;
+        if (!gvi__newton_stays(st, J, &p, gvi__residual(st, from, J, &p))) continue;
         p.fresh = (p.fresh & 1) << 1 | !p.have;
         if (!p.have) {
             if (++made > in->desc.max_iterations/4 + 2) break;
@@ -6143,7 +6166,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
             p.have = 1;
             // by the masses that are known now
             if (k == 0 && in->desc.mass.kind == GVI_MASS_NONE)
-                p.norm = gvi__residual(st, from, J->k0, &p);
+                p.norm = gvi__residual(st, from, J, &p);
             if (kept) in->newton.h = in->sized.h;
         }
         // a matrix of differences alone is right
@@ -6228,11 +6251,7 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
     const unsigned count = (unsigned)st->counters.newton_iterations,
                    enough = 32*(unsigned)st->in.desc.max_iterations;
     const int sign = gvi__orientation(J, all);
-    // that of queries
-    gvi__matrix K = { newton->J + all*all, newton->pivot + all + 1, NULL, 0, 0, 0,
-                      newton->unit };
-
-    if (K.unit) K.unit += all - modes;
+    const gvi__matrix K = gvi__newton_matrix(st, 1, 0);
     gvi_real part = 1, factor = (gvi_real)0.5;
     int right = -1;                                                  // not known
     gvi__copy(all, newton->y, newton->found);
@@ -6281,11 +6300,7 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
 {
     struct gvi__private *in = &st->in;
     const size_t all = gvi__unknowns(st, 0);
-    gvi__matrix J = { in->newton.J + (query ? all*all : 0),
-                      in->newton.pivot + (query ? all + 1 : 0),
-                      NULL, 0, 0, how == GVI__HALVED, in->newton.unit };
-
-    if (query && J.unit) J.unit += all - (size_t)(st->s*st->n);
+    gvi__matrix J = gvi__newton_matrix(st, query, how == GVI__HALVED);
 
     // few points see little of what is between
     const gvi_real far = st->s > 2 ? GVI__CONTRACTS : GVI__LINEAR;
@@ -6362,6 +6377,7 @@ GVI__COLD void gvi__newton_layout(struct gvi__private *in, int held, gvi__arena 
     for (int k = 0; k < 8; ++k) *unknowns[k] = gvi__take(a, 1, N);
     newton->pivot = gvi__take(a, 2, N + 1);                      // twice: queries must not touch
     newton->unit = gvi__take(a, 2, sm);                          // what the steps keep
+    newton->scale = gvi__take(a, 2, n);
     in->cleared = a->used;                                       // J is written first
     newton->J = gvi__take(a, 2*N, N);
 }
@@ -8941,7 +8957,7 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
     for (int k = -bow; k < 2; ++k) {
         gvi_status status = gvi__newton_values(st, from);
         if (status != GVI_OK) return status;
-        gvi__residual(st, from, J->k0, &p);
+        gvi__residual(st, from, J, &p);
         if (k < 0) {
             for (int i = 0; i < n; ++i) length += GVI_ABS(y[i])/in->watch.scale[i];
             for (int i = 0; i < n; ++i) y[n + i] = length*in->watch.scale[i]/2;
@@ -8995,7 +9011,7 @@ GVI__COLD gvi_status gvi__from_chord(gvi_stepper *st, const gvi__origin *from, g
     gvi_real *y = st->in.newton.y;
     gvi_status status = GVI_OK;
     for (int halves = 0; halves < 2; ++halves) {
-        const gvi__matrix plain = { J->square, J->pivot, J->ends, 1, 0, halves, NULL };
+        const gvi__matrix plain = { J->square, J->pivot, J->ends, 1, 0, halves, NULL, NULL };
         gvi__zero((size_t)(st->s*n), y);
         for (int i = 0; i < n; ++i) y[i] = (q1[i] - from->q[i])/h;
         status = gvi__newton_solve(st, from, &plain);
@@ -9013,7 +9029,7 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
 {
     struct gvi__private *in = &st->in;
     const int n = st->n;
-    const gvi__matrix motion = { J->square, J->pivot, NULL, 0, 0, 0, NULL };
+    const gvi__matrix motion = { J->square, J->pivot, NULL, 0, 0, 0, NULL, NULL };
     gvi_real *y = in->newton.y, *end = in->step.q_low;
     gvi_status bowed = GVI_E_NON_FINITE;
     int first = 0, left = 2 + in->desc.max_iterations*2/3;         // pieces, in all
@@ -9240,7 +9256,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     status = gvi__check_boundary(st, t, h, q0, q1, out);
     if (status != GVI_OK) return status;
     gvi__origin from = { t, 0, q0, in->zeros, in->zeros, in->zeros };
-    gvi__matrix J = { NULL, NULL, NULL, 1, 0, 0, NULL };
+    gvi__matrix J = { NULL, NULL, NULL, 1, 0, 0, NULL, NULL };
     if (out->guess && s > 1) {
         status = gvi__momentum(st, t, q0, out->guess);
         if (status != GVI_OK) return gvi__done(st, status);
