@@ -4526,10 +4526,11 @@ GVI_DEF size_t gvi_stepper_size(void) { return sizeof(gvi_stepper); }
 GVI__OFFERED gvi_real *gvi__rows_of_A(const struct gvi__private *in) { return in->lagrangian.A; }
 
 /* d(dL/dv)/dv at one point, n*n, by differences of dL/dv, to `hessian`.  x has been evaluated, and
-   x->v is v.  The difference is shortened where it leaves the domain of L, and made longer where
-   P_j, which need not be 0 with v, hides it.                                                 */
+   x->v is v.  A difference moves P_j by sqrt(eps) of what there is of momentum: P_j itself, which
+   need not be 0 with v, and p_j that is wanted, or in a step, where p is NULL, h f_j.  It is
+   sqrt(eps) of v_j where that moves P_j more, and shorter where it leaves the domain of L.    */
 static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_real *v,
-                                        gvi_real *hessian)
+                                        const gvi_real *p, gvi_real *hessian)
 {
     const int n = st->n;
     const gvi_real root = GVI_SQRT(GVI__EPS);
@@ -4537,8 +4538,8 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
 
     gvi__copy((size_t)n, at->dldv, base);
     for (int j = 0; j < n; ++j) {
-        const gvi_real was = v[j], moves = GVI_ABS(st->in.sized.h*at->f[j]),
-                       push = root*gvi__larger(moves, GVI_ABS(base[j]));
+        const gvi_real was = v[j], wanted = GVI_ABS(p ? p[j] : st->in.sized.h*at->f[j]),
+                       push = root*gvi__larger(wanted, GVI_ABS(base[j]));
         const int rests = !gvi__nonzero(was);
         gvi_real d = 0, next = root*GVI_ABS(was);
         if (rests) next = root*(gvi__norm1(n, v)/(gvi_real)n);
@@ -4555,8 +4556,8 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
                 next = d*root;
                 if (GVI_ABS(d)*root < 2*GVI__EPS*GVI_ABS(was)) next = -2*GVI__EPS*was;
             } else if (rests && push > 0 && moved > 16*push) {
-                next = d*(push/moved);                     // from rest, as f takes it, or P shows
-            } else if (moved < root*GVI_ABS(base[j])/2) {
+                next = d*(push/moved);
+            } else if (moved < push/2) {
                 next = d/GVI_SQRT(root);
             } else break;
             if (!gvi__nonzero(next)) break;
@@ -4568,43 +4569,46 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
     return GVI_OK;
 }
 
-// left := p - dL/dv; returns the largest, over what rounding of v makes of it.  *almost: all small
+/* left := p - dL/dv; returns the largest over what rounding of v and p makes of it: of each, and
+   *all of that of the largest amplitude, momenta over sqrt M_ii, since terms may cancel in dL/dv */
 static gvi_real gvi__legendre_miss(int n, const gvi_real *W, const gvi_real *v, const gvi_real *p,
-                                   const gvi_real *P, gvi_real *left, int *almost)
+                                   const gvi_real *P, gvi_real *left, gvi_real *all)
 {
-    gvi_real miss = 0;
-    *almost = 1;
+    gvi_real miss = 0, most = 0, largest = 0;
     for (int i = 0; i < n; ++i) {
-        gvi_real rounding = GVI_ABS(p[i]);
-        for (int j = 0; j < n; ++j) rounding += GVI_ABS(W[i*n + j]*v[j]);
+        const gvi_real unit = GVI_SQRT(GVI_ABS(W[i*n + i]));
+        gvi_real terms = GVI_ABS(p[i]);
+        for (int j = 0; j < n; ++j) terms += GVI_ABS(W[i*n + j]*v[j]);
         left[i] = p[i] - P[i];
-        *almost &= GVI_ABS(left[i]) <= GVI_SQRT(GVI__EPS)*GVI_ABS(p[i]);
-        if (GVI_ABS(left[i]) > miss*rounding) miss = GVI_ABS(left[i])/rounding;
+        if (GVI_ABS(left[i]) > miss*terms) miss = GVI_ABS(left[i])/terms;
+        if (terms > largest*unit) largest = terms/unit;
+        if (GVI_ABS(left[i]) > most*unit) most = GVI_ABS(left[i])/unit;
     }
+    *all = most > 0 ? most/largest : 0;
     return miss;
 }
 
-/* General Legendre transform at one point: Newton's method for dL/dv(v) = p from the v given.  Ends
-   when the correction stops shrinking and dL/dv misses p by no more than rounding of v explains.
+/* General Legendre transform at one point: Newton's method for dL/dv(v) = p from the v given.  What
+   falls goes on; what does not is rounding, at once where each p_i is, after a while where all are.
    A correction out of the domain of L (faster than light), refused or not a number, is halved. */
 static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi_real *p,
                                        gvi_real *v)
 {
     const int n = st->n;
+    const gvi_real rounding = 2*GVI__PLACE*GVI__EPS*(gvi_real)n;
     gvi_real *W = st->in.lagrangian.hessian, *pivot = W + n*n, *dv = st->in.lagrangian.column + n,
-             last = GVI__MAX;
+             least = GVI__MAX;
     int at;
 
     x->v = v;
     gvi__count(&st->counters.velocities, 1);
-    for (int k = 0, halves = 0; k < 60; ++k) {
-        gvi_real change = 0, miss = 0;
-        int almost = 1;
+    for (int k = 0, halves = 0, idle = 0; k < 60; ++k) {
+        gvi_real miss = 0, all = 0;
         gvi_status status = gvi__evaluate(st, x, 0, 1);
         if (status == GVI_OK && gvi__first_non_finite(n, x->dldv) >= 0) status = GVI_E_NON_FINITE;
-        if (status == GVI_OK) status = gvi__velocity_hessian(st, x, v, W);
+        if (status == GVI_OK) status = gvi__velocity_hessian(st, x, v, p, W);
         if (status == GVI_OK) {
-            miss = gvi__legendre_miss(n, W, v, p, x->dldv, dv + n, &almost);
+            miss = gvi__legendre_miss(n, W, v, p, x->dldv, dv + n, &all);
             status = gvi__lu_factor(n, W, pivot, &at);
             gvi__count(&st->counters.factorizations, 1);
             if (status == GVI_E_SINGULAR)
@@ -4624,17 +4628,12 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
         if (status != GVI_OK) return status;
         gvi__copy((size_t)n, dv + n, dv);
         gvi_lu_solve(n, W, pivot, dv);
-        for (int i = 0; i < n; ++i) {
-            v[i] += dv[i];
-            if (gvi__nonzero(dv[i])) change += GVI_ABS(dv[i])/(GVI_ABS(dv[i]) + GVI_ABS(v[i]));
-        }
-        if (!(change <= GVI__MAX)) break;
-        // from beyond the root corrections grow threefold, be they of the last place
-        const gvi_real small = GVI_SQRT(GVI__EPS);
-        const int rests = k > 4 || (change <= GVI__EPS*GVI__PLACE/2 && (last <= small || almost)),
-                  still = change >= last/2 && change <= 2*last && change <= small;
-        if (miss <= 2*GVI__PLACE*GVI__EPS*(gvi_real)n && (rests || still)) return GVI_OK;
-        last = change;
+        for (int i = 0; i < n; ++i) v[i] += dv[i];
+        if (gvi__first_non_finite(n, v) >= 0) break;
+        idle = miss < least/2 ? 0 : idle + 1;
+        least = gvi__smaller(miss, least);
+        if (!(miss > 0) || (idle > 0 && miss <= rounding) || (idle > 2 && all <= rounding))
+            return GVI_OK;
     }
 
     return gvi__report_effect(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS);
@@ -4647,7 +4646,7 @@ GVI__OFFERED gvi_status gvi__factor_hessian(gvi_stepper *st, gvi_points *at, gvi
     gvi_real *H = st->in.lagrangian.hessian;
     at->v = v;
     gvi_status status = gvi__evaluate(st, at, 0, 1);
-    if (status == GVI_OK) status = gvi__velocity_hessian(st, at, v, H);
+    if (status == GVI_OK) status = gvi__velocity_hessian(st, at, v, NULL, H);
     if (status != GVI_OK) return status;
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < i; ++j) H[i*n + j] = H[j*n + i] = H[i*n + j]/2 + H[j*n + i]/2;
@@ -4663,7 +4662,7 @@ static gvi_status gvi__check_hessian(gvi_stepper *st, gvi_points *at, gvi_real *
     gvi_real *H = st->in.lagrangian.hessian;
     int column;
     gvi_status status = gvi__evaluate(st, at, 0, 1);
-    if (status == GVI_OK) status = gvi__velocity_hessian(st, at, v, H);
+    if (status == GVI_OK) status = gvi__velocity_hessian(st, at, v, NULL, H);
     if (status != GVI_OK) return status;
     for (int i = 0; i < n; ++i)                    // p/v does not tell the mass
         if (st->in.desc.mass.kind == GVI_MASS_NONE && gvi__nonzero(H[i*n + i]))
@@ -5634,8 +5633,8 @@ static gvi__matrix gvi__newton_matrix(const gvi_stepper *st, int query, int halv
 {
     const struct gvi__newton *newton = &st->in.newton;
     const size_t all = gvi__unknowns(st, 0), n = (size_t)st->n, second = query ? 1 : 0;
-    const gvi__matrix J = { newton->J + second*all*all, newton->pivot + second*(all + 1), NULL, 0, 0,
-                            halves, newton->unit + second*(all - (size_t)st->s*n),
+    const gvi__matrix J = { newton->J + second*all*all, newton->pivot + second*(all + 1), NULL, 0,
+                            0, halves, newton->unit + second*(all - (size_t)st->s*n),
                             newton->scale + second*n };
     return J;
 }
