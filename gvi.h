@@ -941,6 +941,7 @@ struct gvi__newton {                  /* N = s (n + m) unknowns                 
     gvi_real *P;                      /* [n][R] stage values                                   */
     gvi_real *J, *pivot;              /* two matrices of N: of steps, of queries               */
     gvi_real *unit;                   /* [2][s*m] of multipliers, see gvi__jacobian            */
+    gvi_real *scale;                  /* [2][n] see gvi__matrix                                */
     gvi_real *hessian;                /* [3 n*n] of one effect at one point                    */
     gvi_real *moved;                  /* [4n][R] F and P, moved and not                        */
     gvi_real  bend;                   /* worst contraction on the way to the last solution     */
@@ -4535,10 +4536,11 @@ GVI_DEF size_t gvi_stepper_size(void) { return sizeof(gvi_stepper); }
 GVI__OFFERED gvi_real *gvi__rows_of_A(const struct gvi__private *in) { return in->lagrangian.A; }
 
 /* d(dL/dv)/dv at one point, n*n, by differences of dL/dv, to `hessian`.  x has been evaluated, and
-   x->v is v.  The difference is shortened where it leaves the domain of L, and made longer where
-   P_j, which need not be 0 with v, hides it.                                                 */
+   x->v is v.  A difference moves P_j by sqrt(eps) of what there is of momentum: P_j itself, which
+   need not be 0 with v, and p_j that is wanted, or in a step, where p is NULL, h f_j.  It is
+   sqrt(eps) of v_j where that moves P_j more, and shorter where it leaves the domain of L.    */
 static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_real *v,
-                                        gvi_real *hessian)
+                                        const gvi_real *p, gvi_real *hessian)
 {
     const int n = st->n;
     const gvi_real root = GVI_SQRT(GVI__EPS);
@@ -4546,8 +4548,8 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
 
     gvi__copy((size_t)n, at->dldv, base);
     for (int j = 0; j < n; ++j) {
-        const gvi_real was = v[j], moves = GVI_ABS(st->in.sized.h*at->f[j]),
-                       push = root*gvi__larger(moves, GVI_ABS(base[j]));
+        const gvi_real was = v[j], wanted = GVI_ABS(p ? p[j] : st->in.sized.h*at->f[j]),
+                       push = root*gvi__larger(wanted, GVI_ABS(base[j]));
         const int rests = !gvi__nonzero(was);
         gvi_real d = 0, next = root*GVI_ABS(was);
         if (rests) next = root*(gvi__norm1(n, v)/(gvi_real)n);
@@ -4564,8 +4566,8 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
                 next = d*root;
                 if (GVI_ABS(d)*root < 2*GVI__EPS*GVI_ABS(was)) next = -2*GVI__EPS*was;
             } else if (rests && push > 0 && moved > 16*push) {
-                next = d*(push/moved);                     // from rest, as f takes it, or P shows
-            } else if (moved < root*GVI_ABS(base[j])/2) {
+                next = d*(push/moved);
+            } else if (moved < push/2) {
                 next = d/GVI_SQRT(root);
             } else break;
             if (!gvi__nonzero(next)) break;
@@ -4577,43 +4579,46 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
     return GVI_OK;
 }
 
-// left := p - dL/dv; returns the largest, over what rounding of v makes of it.  *almost: all small
+/* left := p - dL/dv; returns the largest over what rounding of v and p makes of it: of each, and
+   *all of that of the largest amplitude, momenta over sqrt M_ii, since terms may cancel in dL/dv */
 static gvi_real gvi__legendre_miss(int n, const gvi_real *W, const gvi_real *v, const gvi_real *p,
-                                   const gvi_real *P, gvi_real *left, int *almost)
+                                   const gvi_real *P, gvi_real *left, gvi_real *all)
 {
-    gvi_real miss = 0;
-    *almost = 1;
+    gvi_real miss = 0, most = 0, largest = 0;
     for (int i = 0; i < n; ++i) {
-        gvi_real rounding = GVI_ABS(p[i]);
-        for (int j = 0; j < n; ++j) rounding += GVI_ABS(W[i*n + j]*v[j]);
+        const gvi_real unit = GVI_SQRT(GVI_ABS(W[i*n + i]));
+        gvi_real terms = GVI_ABS(p[i]);
+        for (int j = 0; j < n; ++j) terms += GVI_ABS(W[i*n + j]*v[j]);
         left[i] = p[i] - P[i];
-        *almost &= GVI_ABS(left[i]) <= GVI_SQRT(GVI__EPS)*GVI_ABS(p[i]);
-        if (GVI_ABS(left[i]) > miss*rounding) miss = GVI_ABS(left[i])/rounding;
+        if (GVI_ABS(left[i]) > miss*terms) miss = GVI_ABS(left[i])/terms;
+        if (terms > largest*unit) largest = terms/unit;
+        if (GVI_ABS(left[i]) > most*unit) most = GVI_ABS(left[i])/unit;
     }
+    *all = most > 0 ? most/largest : 0;
     return miss;
 }
 
-/* General Legendre transform at one point: Newton's method for dL/dv(v) = p from the v given.  Ends
-   when the correction stops shrinking and dL/dv misses p by no more than rounding of v explains.
+/* General Legendre transform at one point: Newton's method for dL/dv(v) = p from the v given.  What
+   falls goes on; what does not is rounding, at once where each p_i is, after a while where all are.
    A correction out of the domain of L (faster than light), refused or not a number, is halved. */
 static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi_real *p,
                                        gvi_real *v)
 {
     const int n = st->n;
+    const gvi_real rounding = 2*GVI__PLACE*GVI__EPS*(gvi_real)n;
     gvi_real *W = st->in.lagrangian.hessian, *pivot = W + n*n, *dv = st->in.lagrangian.column + n,
-             last = GVI__MAX;
+             least = GVI__MAX;
     int at;
 
     x->v = v;
     gvi__count(&st->counters.velocities, 1);
-    for (int k = 0, halves = 0; k < 60; ++k) {
-        gvi_real change = 0, miss = 0;
-        int almost = 1;
+    for (int k = 0, halves = 0, idle = 0; k < 60; ++k) {
+        gvi_real miss = 0, all = 0;
         gvi_status status = gvi__evaluate(st, x, 0, 1);
         if (status == GVI_OK && gvi__first_non_finite(n, x->dldv) >= 0) status = GVI_E_NON_FINITE;
-        if (status == GVI_OK) status = gvi__velocity_hessian(st, x, v, W);
+        if (status == GVI_OK) status = gvi__velocity_hessian(st, x, v, p, W);
         if (status == GVI_OK) {
-            miss = gvi__legendre_miss(n, W, v, p, x->dldv, dv + n, &almost);
+            miss = gvi__legendre_miss(n, W, v, p, x->dldv, dv + n, &all);
             status = gvi__lu_factor(n, W, pivot, &at);
             gvi__count(&st->counters.factorizations, 1);
             if (status == GVI_E_SINGULAR)
@@ -4633,17 +4638,12 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
         if (status != GVI_OK) return status;
         gvi__copy((size_t)n, dv + n, dv);
         gvi_lu_solve(n, W, pivot, dv);
-        for (int i = 0; i < n; ++i) {
-            v[i] += dv[i];
-            if (gvi__nonzero(dv[i])) change += GVI_ABS(dv[i])/(GVI_ABS(dv[i]) + GVI_ABS(v[i]));
-        }
-        if (!(change <= GVI__MAX)) break;
-        // from beyond the root corrections grow threefold, be they of the last place
-        const gvi_real small = GVI_SQRT(GVI__EPS);
-        const int rests = k > 4 || (change <= GVI__EPS*GVI__PLACE/2 && (last <= small || almost)),
-                  still = change >= last/2 && change <= 2*last && change <= small;
-        if (miss <= 2*GVI__PLACE*GVI__EPS*(gvi_real)n && (rests || still)) return GVI_OK;
-        last = change;
+        for (int i = 0; i < n; ++i) v[i] += dv[i];
+        if (gvi__first_non_finite(n, v) >= 0) break;
+        idle = miss < least/2 ? 0 : idle + 1;
+        least = gvi__smaller(miss, least);
+        if (!(miss > 0) || (idle > 0 && miss <= rounding) || (idle > 2 && all <= rounding))
+            return GVI_OK;
     }
 
     return gvi__report_effect(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS);
@@ -4656,7 +4656,7 @@ GVI__OFFERED gvi_status gvi__factor_hessian(gvi_stepper *st, gvi_points *at, gvi
     gvi_real *H = st->in.lagrangian.hessian;
     at->v = v;
     gvi_status status = gvi__evaluate(st, at, 0, 1);
-    if (status == GVI_OK) status = gvi__velocity_hessian(st, at, v, H);
+    if (status == GVI_OK) status = gvi__velocity_hessian(st, at, v, NULL, H);
     if (status != GVI_OK) return status;
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < i; ++j) H[i*n + j] = H[j*n + i] = H[i*n + j]/2 + H[j*n + i]/2;
@@ -4672,11 +4672,10 @@ static gvi_status gvi__check_hessian(gvi_stepper *st, gvi_points *at, gvi_real *
     gvi_real *H = st->in.lagrangian.hessian;
     int column;
     gvi_status status = gvi__evaluate(st, at, 0, 1);
-    if (status == GVI_OK) status = gvi__velocity_hessian(st, at, v, H);
+    if (status == GVI_OK) status = gvi__velocity_hessian(st, at, v, NULL, H);
     if (status != GVI_OK) return status;
     for (int i = 0; i < n; ++i)                    // p/v does not tell the mass
-        if (st->in.desc.mass.kind == GVI_MASS_NONE && !gvi__nonzero(v[i])
-            && gvi__nonzero(H[i*n + i]))
+        if (st->in.desc.mass.kind == GVI_MASS_NONE && gvi__nonzero(H[i*n + i]))
             st->in.watch.scale[i] = 1/GVI_SQRT(GVI_ABS(H[i*n + i]));
     status = gvi__lu_factor(n, H, H + n*n, &column);
     if (status != GVI_E_SINGULAR) return GVI_OK;
@@ -5587,6 +5586,7 @@ typedef struct gvi__matrix {
                               then has no units                                      */
     int       halves;      /* are changes taken back that make the residual larger?         */
     gvi_real *unit;        /* of the multipliers, in which the LU has their columns         */
+    gvi_real *scale;       /* 1/sqrt M_ii of a mass that terms of L make, once known; or NULL */
 } gvi__matrix;
 
 /* Where Newton's method stands: the last changes and the least; rho, the contraction seen; what
@@ -5639,6 +5639,17 @@ static size_t gvi__unknowns(const gvi_stepper *st, int k0)
     return (size_t)(st->s - k0)*(size_t)st->n + gvi__held(st);
 }
 
+// that of steps; that of queries, which must not touch what steps keep
+static gvi__matrix gvi__newton_matrix(const gvi_stepper *st, int query, int halves)
+{
+    const struct gvi__newton *newton = &st->in.newton;
+    const size_t all = gvi__unknowns(st, 0), n = (size_t)st->n, second = query ? 1 : 0;
+    const gvi__matrix J = { newton->J + second*all*all, newton->pivot + second*(all + 1), NULL, 0,
+                            0, halves, newton->unit + second*(all - (size_t)st->s*n),
+                            newton->scale + second*n };
+    return J;
+}
+
 // what a solution of length h needs: weights and times of the points
 static void gvi__newton_points(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
@@ -5676,10 +5687,12 @@ static gvi_status gvi__newton_values(gvi_stepper *st, const gvi__origin *from)
    its grid: then the rows are exactly those of a discrete action, also as rounded.  Returns the
    norm, the sum of magnitudes over sqrt M_ii: rows of (1) are momenta, so that has one unit for
    all coordinates.  M is that of the first y.                                                 */
-static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, gvi__descent *p)
+static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, const gvi__matrix *J,
+                              gvi__descent *p)
 {
     struct gvi__private *in = &st->in;
-    const int n = st->n, R = in->R, first = !(p->norm < GVI__MAX),
+    const int n = st->n, R = in->R, k0 = J->k0, first = !(p->norm < GVI__MAX),
+              known = J->scale && st->in.desc.mass.kind == GVI_MASS_NONE,
               held = gvi__held(st) > 0;
     const gvi_real h = in->sized.h;
     gvi_real norm = 0, moved = 0, before = 0;
@@ -5687,20 +5700,23 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
     p->work = 0;
     for (int i = 0; i < n; ++i) {
         const gvi_real *P = in->newton.P + i*R, *F = in->work.F + i*R;
-        gvi_real length = 0, change = 0, was = 0;
+        gvi_real length = 0, change = 0, was = 0, momenta = 0;
         for (int k = k0; k < st->s; ++k) {
             // P - p is summed where p occurs: the rounding of P then is not in the sum
             const gvi_real base = k == 0 ? from->p[i] : 0;
-            gvi_real momentum = k == 0 ? -(h*from->p_low[i]) : 0, force = 0, size = 0;
+            gvi_real momentum = k == 0 ? -(h*from->p_low[i]) : 0, force = 0, size = 0, forces = 0;
             for (int j = 0; j < st->r; ++j) {
                 const gvi_real phi = in->table.phi[k*R + j],
                                W = (k == 0 ? 1 : 0) - in->table.Phi[k*R + j];
                 const gvi_real b = W*(in->sized.hb[j]*F[j]);
                 momentum += phi*(in->sized.hb[j]*(P[j] - base));
                 force += b;
-                size += GVI_ABS(phi*(in->table.b[j]*P[j])) + GVI_ABS(b);
+                size += GVI_ABS(phi*(in->table.b[j]*P[j]));
+                forces += GVI_ABS(b);
             }
-            if (held) gvi__held_force(st, i, k, &force, &size);
+            momenta = gvi__larger(size, momenta);
+            if (held) gvi__held_force(st, i, k, &force, &forces);
+            size += forces;
             const gvi_real sum = momentum/h - force;
             gvi_real *rest = in->newton.residual + (k - k0)*n + i;
             const gvi_real now = -(gvi_real)(2*k + 1)*sum;
@@ -5710,7 +5726,9 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
             in->newton.dy[(k - k0)*n + i] = *rest = now;
             if (size > 0 && GVI_ABS(sum)/size > p->work) p->work = GVI_ABS(sum)/size;
         }
-        if (first) in->watch.scale[i] = 1/GVI_SQRT(gvi__place_inertia(st, i));
+        in->watch.change[i] = momenta;
+        if (first && known && J->scale[i] > 0) in->watch.scale[i] = J->scale[i];
+        else if (first) in->watch.scale[i] = 1/GVI_SQRT(gvi__place_inertia(st, i));
         norm += length*in->watch.scale[i];
         moved += change*in->watch.scale[i];
         before += was*in->watch.scale[i];
@@ -5809,9 +5827,10 @@ static gvi_status gvi__evaluate_plain(gvi_stepper *st, gvi_real *F)
     return gvi__evaluate(st, &at, ~gvi__with_hessian(in, 0), in->desc.mass.kind > GVI_MASS_DENSE);
 }
 
-/* What coordinate i moves in a step: h v, or eps^(1/4) of its position where that is more, or where
-   it is at rest at 0, h^2 f/M_ii.  For its velocity h v or h^2 f/M_ii, whichever is more.  (f
-   near a pole takes positions too far.)                                                       */
+/* What coordinate i moves in a step: h v or h p/M_ii, which differences of p have to show beside a
+   term A.v; or eps^(1/4) of its position where that is more; or where it is at rest at 0,
+   h^2 f/M_ii.  For its velocity h v, h p/M_ii or h^2 f/M_ii, whichever is more.  (f near a pole
+   takes positions too far.)                                                                   */
 static gvi_real gvi__move_of(const gvi_stepper *st, int i, int by_v)
 {
     const struct gvi__private *in = &st->in;
@@ -5819,9 +5838,10 @@ static gvi_real gvi__move_of(const gvi_stepper *st, int i, int by_v)
                    hw = h*in->watch.scale[i];
     gvi_real most = 0, push = 0;
     for (int k = i*in->R; k < i*in->R + st->r; ++k) {
-        const gvi_real lengths[] = { h*GVI_ABS(in->work.V[k]), small*GVI_ABS(in->work.Q[k]) },
+        const gvi_real lengths[] = { h*GVI_ABS(in->work.V[k]), small*GVI_ABS(in->work.Q[k]),
+                                     hw*GVI_ABS(in->newton.P[k])*in->watch.scale[i] },
                        f = hw*GVI_ABS(in->work.F[k])*hw;
-        for (int l = 0; l < 2; ++l) if (lengths[l] > most) most = lengths[l];
+        for (int l = 0; l < 3; ++l) if (lengths[l] > most) most = lengths[l];
         if (f > push && gvi__finite(f)) push = f;
     }
     return push > most && (by_v || !(most > GVI__MIN/GVI__EPS)) ? push : most;
@@ -5937,6 +5957,7 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
             J->square[(size_t)i*(size_t)size + (size_t)z] *= J->unit[z - modes];
     }
 
+    if (J->scale) gvi__copy((size_t)n, st->in.watch.scale, J->scale);
     status = gvi__lu_factor(size, J->square, J->pivot, &at);
     gvi__count(&st->counters.factorizations, 1);
     if (status == GVI_OK) return GVI_OK;
@@ -6002,8 +6023,9 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
             }
             size += GVI_ABS(*y);
         }
-        const gvi_real least = GVI__EPS*change;                       // y may land on 0
-        if (!(size <= none && change <= none)) sum += change/(size < least ? least : size);
+        // y may land on 0, or be small beside a term A.v
+        const gvi_real least = gvi__larger(in->watch.change[i]*unit*unit, GVI__EPS*change);
+        if (!(size <= none && change <= none)) sum += change/gvi__larger(size, least);
         all += change/unit;
         if (size > length*unit) length = size/unit;
         if (q + h*size > largest*unit) largest = (q + h*size)/unit;
@@ -6031,34 +6053,36 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
 static void gvi__newton_note(gvi_stepper *st, gvi__descent *p, gvi_real change, gvi_real noise)
 {
     const gvi_real before = p->before;
-    if (p->earlier > 0 && change > GVI__SURE*GVI__EPS) {
+    const int sure = p->work >= 0;                 // not rounding
+    if (sure && p->earlier > 0 && change > GVI__SURE*GVI__EPS) {
         const gvi_real contraction = GVI_SQRT(change/p->earlier);
         st->counters.worst_contraction = gvi__larger(contraction, st->counters.worst_contraction);
     }
 
     const int stagnant = before > 0 && change > p->least/2, rests = p->left < GVI__MAX;
     p->stagnant = stagnant ? p->stagnant + 1 : 0;
-    if (before > 0 && !stagnant && !rests && (change > noise || change < p->rho*p->least))
+    if (before > 0 && !stagnant && !rests && (sure || change < p->rho*p->least))
         p->rho = change/p->least;
     p->least = gvi__smaller(change, p->least);
 
-    const int felt = gvi__held(st) == 0 || p->work >= 0;   // not the rounding of g
-    if (before > 0 && change > noise && felt)
+    if (before > 0 && change > noise && sure)
         st->in.newton.bend = gvi__larger(change/before, st->in.newton.bend);
 }
 
-/* Is it rounding?  One that does not shrink is, if y, q or the residual is, or if it is small and
-   its matrix is new or has contracted here: an older one can repeat any change.  It then hides no
-   more of the error, p->left, than the change before, which shrinks on by the contraction seen. */
+/* Is it rounding?  It is if y, q or the residual is, once the contraction was seen or it does not
+   shrink; and if it does not, though small, with a matrix that is new or has contracted here: an
+   older one can repeat any change.  What is left of the error, p->left, was no more than the change
+   before times the contraction then, and shrinks on by that.                                  */
 static int gvi__newton_rests(gvi__descent *p, gvi_real change, gvi_real noise)
 {
-    const gvi_real quarter = GVI__CONTRACTS;
-    const int fresh = p->fresh & 1, proven = (fresh && p->holds) || p->rho < quarter;
-    const int small = change <= noise || (fresh && change <= GVI_SQRT(GVI__EPS));
-    if (p->stagnant > 0 && !(p->left < GVI__MAX) && (p->work < 0 || (proven && small)))
-        p->left = p->before;
+    const gvi_real quarter = GVI__CONTRACTS, rho = gvi__smaller(p->rho, quarter);
+    const int fresh = p->fresh & 1, contracts = p->rho < quarter, still = p->stagnant > 0;
+    const int small = change <= noise || (fresh && change <= GVI_SQRT(GVI__EPS)),
+              proven = small && ((fresh && p->holds) || contracts),
+              rounding = p->work < 0 ? still || contracts : still && proven;
+    if (!(p->left < GVI__MAX) && rounding) p->left = gvi__smaller(change, p->before*rho);
     if (!(p->left < GVI__MAX)) return 0;
-    p->left *= gvi__smaller(p->rho, quarter);
+    p->left *= rho;
     return 1;
 }
 
@@ -6143,7 +6167,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
         gvi_status status = gvi__newton_values(st, from);
         // one more evaluation, then done
         if (status != GVI_OK || verdict == GVI__DONE) return status;
-        if (!gvi__newton_stays(st, J, &p, gvi__residual(st, from, J->k0, &p))) continue;
+        if (!gvi__newton_stays(st, J, &p, gvi__residual(st, from, J, &p))) continue;
         p.fresh = (p.fresh & 1) << 1 | !p.have;
         if (!p.have) {
             if (++made > in->desc.max_iterations/4 + 2) break;
@@ -6152,7 +6176,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
             p.have = 1;
             // by the masses that are known now
             if (k == 0 && in->desc.mass.kind == GVI_MASS_NONE)
-                p.norm = gvi__residual(st, from, J->k0, &p);
+                p.norm = gvi__residual(st, from, J, &p);
             if (kept) in->newton.h = in->sized.h;
         }
         // a matrix of differences alone is right
@@ -6237,11 +6261,7 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
     const unsigned count = (unsigned)st->counters.newton_iterations,
                    enough = 32*(unsigned)st->in.desc.max_iterations;
     const int sign = gvi__orientation(J, all);
-    // that of queries
-    gvi__matrix K = { newton->J + all*all, newton->pivot + all + 1, NULL, 0, 0, 0,
-                      newton->unit };
-
-    if (K.unit) K.unit += all - modes;
+    const gvi__matrix K = gvi__newton_matrix(st, 1, 0);
     gvi_real part = 1, factor = (gvi_real)0.5;
     int right = -1;                                                  // not known
     gvi__copy(all, newton->y, newton->found);
@@ -6290,11 +6310,7 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
 {
     struct gvi__private *in = &st->in;
     const size_t all = gvi__unknowns(st, 0);
-    gvi__matrix J = { in->newton.J + (query ? all*all : 0),
-                      in->newton.pivot + (query ? all + 1 : 0),
-                      NULL, 0, 0, how == GVI__HALVED, in->newton.unit };
-
-    if (query && J.unit) J.unit += all - (size_t)(st->s*st->n);
+    gvi__matrix J = gvi__newton_matrix(st, query, how == GVI__HALVED);
 
     // few points see little of what is between
     const gvi_real far = st->s > 2 ? GVI__CONTRACTS : GVI__LINEAR;
@@ -6371,6 +6387,7 @@ GVI__COLD void gvi__newton_layout(struct gvi__private *in, int held, gvi__arena 
     for (int k = 0; k < 8; ++k) *unknowns[k] = gvi__take(a, 1, N);
     newton->pivot = gvi__take(a, 2, N + 1);                      // twice: queries must not touch
     newton->unit = gvi__take(a, 2, sm);                          // what the steps keep
+    newton->scale = gvi__take(a, 2, n);
     in->cleared = a->used;                                       // J is written first
     newton->J = gvi__take(a, 2*N, N);
 }
@@ -8950,7 +8967,7 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
     for (int k = -bow; k < 2; ++k) {
         gvi_status status = gvi__newton_values(st, from);
         if (status != GVI_OK) return status;
-        gvi__residual(st, from, J->k0, &p);
+        gvi__residual(st, from, J, &p);
         if (k < 0) {
             for (int i = 0; i < n; ++i) length += GVI_ABS(y[i])/in->watch.scale[i];
             for (int i = 0; i < n; ++i) y[n + i] = length*in->watch.scale[i]/2;
@@ -9004,7 +9021,7 @@ GVI__COLD gvi_status gvi__from_chord(gvi_stepper *st, const gvi__origin *from, g
     gvi_real *y = st->in.newton.y;
     gvi_status status = GVI_OK;
     for (int halves = 0; halves < 2; ++halves) {
-        const gvi__matrix plain = { J->square, J->pivot, J->ends, 1, 0, halves, NULL };
+        const gvi__matrix plain = { J->square, J->pivot, J->ends, 1, 0, halves, NULL, NULL };
         gvi__zero((size_t)(st->s*n), y);
         for (int i = 0; i < n; ++i) y[i] = (q1[i] - from->q[i])/h;
         status = gvi__newton_solve(st, from, &plain);
@@ -9022,7 +9039,7 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
 {
     struct gvi__private *in = &st->in;
     const int n = st->n;
-    const gvi__matrix motion = { J->square, J->pivot, NULL, 0, 0, 0, NULL };
+    const gvi__matrix motion = { J->square, J->pivot, NULL, 0, 0, 0, NULL, NULL };
     gvi_real *y = in->newton.y, *end = in->step.q_low;
     gvi_status bowed = GVI_E_NON_FINITE;
     int first = 0, left = 2 + in->desc.max_iterations*2/3;         // pieces, in all
@@ -9249,7 +9266,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     status = gvi__check_boundary(st, t, h, q0, q1, out);
     if (status != GVI_OK) return status;
     gvi__origin from = { t, 0, q0, in->zeros, in->zeros, in->zeros };
-    gvi__matrix J = { NULL, NULL, NULL, 1, 0, 0, NULL };
+    gvi__matrix J = { NULL, NULL, NULL, 1, 0, 0, NULL, NULL };
     if (out->guess && s > 1) {
         status = gvi__momentum(st, t, q0, out->guess);
         if (status != GVI_OK) return gvi__done(st, status);

@@ -15,8 +15,6 @@ typedef struct known {
     long seen;
 } known;
 
-#define NEWTON_AT_REST "Newton's method and gvi_velocity: d2L/dv2 by differences from rest, beside a term A.v"
-#define LEGENDRE "gvi_velocity from v = 0 where p is not 0, or by terms of a mass alone"
 #define NEAR_0 "a row of constraints whose own terms vanish"
 #define NEWTON_FLOOR "Newton's method goes on where nothing but rounding is left"
 #define AT_REST_ON_ROWS "a start at rest on rows that move: g's rate is judged by the kinetic energy, which is 0"
@@ -27,37 +25,24 @@ typedef struct known {
 static known known_faults[] = {
     { "three bodies, restricted, at rest", "", "h 0.125", "no solution", REFUSED, 1, { 0, 1, 0 }, "falls into a primary within four such steps", 0 },
     { "three bodies, restricted, at rest", "plain", "degree 3 gauss", "no solution", REFUSED, 1, { 1, 1, 1 }, "falls into a primary", 0 },
-    { "three bodies, restricted", "", "", "no solution", REFUSED, 0, { 5, 2, 1 }, NEWTON_AT_REST, 0 },
-    { "", "", "", "has no mass", REFUSED, 0, { 4, 0, 0 }, NEWTON_AT_REST, 0 },
-    { "", "", "", "no velocity found", REFUSED, 0, { 5, 3, 6 }, LEGENDRE, 0 },
+    { "three bodies, restricted, at rest", "drawn", "", "no solution", REFUSED, 1, { 0, 0, 0 }, "falls into a primary", 0 },
     { "", "starts at 0", "", "no solution", REFUSED, 0, { 7, 21, 6 }, NEAR_0, 0 },
     { "parallelogram", "starts at 0", "", "as accurate", REFUSED, 0, { 0, 2, 0 }, NEAR_0, 0 },
-    { "", "starts at 0", "", "", DEAR, 0, { 12, 18, 9 }, NEAR_0, 0 },
+    { "", "starts at 0", "", "", DEAR, 0, { 13, 14, 8 }, NEAR_0, 0 },
     { "", "speed, starts at rest", "", "not on a constraint", REFUSED, 0, { 0, 15, 10 }, AT_REST_ON_ROWS, 0 },
-    { "", "", "", "formulation 5", DEAR, 0, { 31, 148, 65 }, NEWTON_FLOOR, 0 },
-    { "polar", "", "", "no solution", REFUSED, 0, { 5, 4, 2 }, NEWTON_AT_REST, 0 },
-    { "relativistic", "", "", "no solution", REFUSED, 0, { 5, 10, 4 }, LEGENDRE, 0 },
-    { "", "speed, starts at rest", "", "no solution", REFUSED, 0, { 14, 14, 2 }, LEGENDRE, 0 },
-    { "", "all as terms", "", "no solution", REFUSED, 0, { 7, 1, 0 }, LEGENDRE, 0 },
+    { "", "", "", "formulation 5", DEAR, 0, { 19, 8, 3 }, NEWTON_FLOOR, 0 },
+    { "", "all as terms", "", "no solution", REFUSED, 0, { 1, 1, 1 }, "rows and a mass of terms alone: Newton's floor of g", 0 },
+    { "", "", "dial", "no solution", REFUSED, 0, { 5, 0, 0 }, DIAL_FLOOR, 0 },
     { "charge on a rod", "there and back", "", "no solution", REFUSED, 0, { 0, 1, 2 }, "Newton's floor under a row and a term A.v", 0 },
-    { "", "", "dial", "never ends", REFUSED, 0, { 5, 0, 0 }, DIAL_FLOOR, 0 },
-    { "", "", "dial", "as accurate", REFUSED, 0, { 1, 2, 0 }, DIAL_FLOOR, 0 },
-    { "", "", "dial", "steps, the best", DEAR, 0, { 5, 3, 3 }, DIAL_FLOOR, 0 },
+    { "", "", "dial", "never ends", REFUSED, 0, { 7, 1, 1 }, DIAL_FLOOR, 0 },
+    { "", "", "dial", "as accurate", REFUSED, 0, { 1, 1, 0 }, DIAL_FLOOR, 0 },
+    { "", "", "dial", "steps, the best", DEAR, 0, { 8, 3, 3 }, DIAL_FLOOR, 0 },
     { "", "", "", "formulation 2", DEAR, 0, { 27, 18, 7 }, EXACT_0, 0 },
     { "", "", "", "formulation 3", DEAR, 0, { 2, 3, 1 }, EXACT_0, 0 },
-    { "", "gauge", "", "no solution", REFUSED, 0, { 3, 0, 0 }, LEGENDRE, 0 },
-    { "", "mass as term", "", "no solution", REFUSED, 0, { 12, 6, 3 }, LEGENDRE, 0 },
-    { "", "pinned", "", "no solution", REFUSED, 0, { 6, 0, 0 }, NEWTON_AT_REST, 0 },
+    { "", "pinned", "", "no solution", REFUSED, 0, { 3, 0, 0 }, NEWTON_FLOOR, 0 },
     { "", "drawn", "", "formulation 4", DEAR, 0, { 0, 0, 0 }, "the fixed point of momenta goes on where nothing but rounding is left", 0 },
-    { "charge and spring, typed", "", "", "no solution", REFUSED, 0, { 30, 4, 0 }, NEWTON_AT_REST, 0 },
-    { "charge", "drawn", "", "no solution", REFUSED, 0, { 0, 0, 0 }, NEWTON_AT_REST, 0 },
-    { "turning table", "drawn", "", "no solution", REFUSED, 0, { 0, 0, 0 }, NEWTON_AT_REST, 0 },
-    { "loudspeaker", "drawn", "", "no solution", REFUSED, 0, { 0, 0, 0 }, LEGENDRE, 0 },
-    { "fourth power", "drawn", "", "no solution", REFUSED, 0, { 0, 0, 0 }, LEGENDRE, 0 },
-    { "", "drawn", "", "has no mass", REFUSED, 0, { 0, 0, 0 }, NEWTON_AT_REST, 0 },
     { "with a clock", "drawn", "", "no solution", REFUSED, 0, { 0, 0, 0 }, CLOCK_FLOOR, 0 },
     { "heavy top", "drawn", "", "no solution", REFUSED, 0, { 0, 0, 0 }, NEWTON_FLOOR, 0 },
-    { "relativistic", "drawn", "", "gave NaN", REFUSED, 0, { 0, 0, 0 }, LEGENDRE, 0 },
     { "charge", "measures", "", "", UNLIKE, 0, { 4, 7, 0 }, "contraction and resolution of what is rounding, beside a term A.v", 0 },
 };
 
