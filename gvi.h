@@ -1982,6 +1982,14 @@ static void gvi__legendre(int k, gvi_real x, gvi_real *P, gvi_real *before)
     *before = was;
 }
 
+// what a force at tau, times its weight, gives to the velocity's Legendre mode k > 0: P_(k-1)/2
+GVI__OFFERED gvi_real gvi__mode_of_force(int k, gvi_real tau)
+{
+    gvi_real P = 1, before = 1;
+    for (int p = 0; p < k - 1; ++p) gvi__legendre(p, 1 - 2*tau, &P, &before);
+    return P/2;
+}
+
 // the same in double-word arithmetic
 GVI__COLD void gvi__legendre2(int k, gvi__two x, gvi__two *P, gvi__two *before)
 {
@@ -5509,7 +5517,8 @@ static int gvi__place_steps(gvi_stepper *st, gvi_real h, int count)
     gvi_real t0 = st->t0;
     int made = 0;
 
-    if (!(gvi__parts(in) & GVI__IN_KICKS) || in->apart) return 0;         // apart: constraints
+    // apart: constraints; resolution: each step is measured
+    if (!(gvi__parts(in) & GVI__IN_KICKS) || in->apart || in->desc.resolution > 0) return 0;
     gvi__weights_for(st, h);
     gvi__drifts_for(st, h);
     for (; made < count; ++made) {
@@ -7626,6 +7635,25 @@ GVI__OFFERED gvi_real gvi__constraint_mode(const gvi_stepper *st, int i, int k)
     return sum;
 }
 
+// z := G(q1)' y, the impulse at the end of the step at work
+GVI__OFFERED void gvi__end_impulse(const gvi_stepper *st, gvi_real *z)
+{
+    gvi__zero((size_t)st->n, z);
+    if (gvi__constrained(st)) gvi__add_force(st, st->in.con.y, z);
+}
+
+/* Mode s + 1 of what the forces of constraint do to coordinate i, `end` that impulse over h.
+   Lobatto's s + 1 points square P_s to 1/s, not to 1/(2s + 1).                                */
+GVI__OFFERED gvi_real gvi__high_constraint_mode(const gvi_stepper *st, int i, gvi_real end)
+{
+    const struct gvi__private *in = &st->in;
+    const int s = st->s;
+    gvi_real sum = gvi__mode_of_force(s + 1, 1)*end;
+    for (int e = 0; e < s; ++e)
+        sum += gvi__mode_of_force(s + 1, in->con.d[e])*(in->con.w[e]*in->con.force[i*in->R + e]);
+    return sum*(gvi_real)s/(gvi_real)(2*s + 1);
+}
+
 /* How far the rounding of g moves the coordinates: M^-1 G' A^-1 of what ends of steps were off by,
    or of eps of its known terms, once with one sign and once with signs that alternate, added.  To
    con.W; NULL where nothing holds.  All is that of the end, which was projected last.         */
@@ -8127,6 +8155,8 @@ GVI__COLD void gvi__rolling_layout(struct gvi__private *in, gvi__arena *a)
 #else
 #define gvi__constrained(st) 0
 #define gvi__constraint_mode(st, i, k) ((void)(k), (gvi_real)0)
+#define gvi__high_constraint_mode(st, i, end) ((void)(end), (gvi_real)0)
+#define gvi__end_impulse(st, z) ((void)(z))
 #define gvi__constraint_shift(st) NULL
 #define gvi__place_explain(st, status, v, start) 0
 #endif /* GVI_NO_CONSTRAINTS */
@@ -8536,29 +8566,34 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
 
 GVI__COLD const char *gvi__wrong_in_resolution(const gvi_desc *d, int order)
 {
-    if (d->degree < 3) return "resolution: degree is below 3";
     if (order < 2*d->degree) return "resolution: the order of the rule is below twice the degree";
     return NULL;
 }
 
-// what the point j gives to the modes K, K - 1 ..: see gvi__resolution
+// what the point j gives to the modes K, K - 1 ..: see gvi__resolution, or gvi__coarse_resolution
 GVI__COLD void gvi__dial_tables(gvi_stepper *st)
 {
     struct gvi__private *in = &st->in;
     const int forces = in->stages == 1, s = st->s, R = in->R;
     const gvi_real *modes = forces ? in->table.Phi : in->table.phi;       // not always both
     in->dial.top = s - !(forces && !gvi__of_kind(in, GVI_CONSTRAINT));
+    if (s < 3) in->dial.top = s + 1;
     for (int m = 0; m < 6; ++m)
         for (int j = 0; j < st->r; ++j) {
             const int k = in->dial.top - m;
             gvi_real *to = in->dial.high + 6*j + m;
             *to = 0;
-            if (k > 0 && k < s) *to = in->table.inv_gamma[k]*modes[k*R + j]*in->table.b[j];
-            if (k < s) continue;
-            gvi_real P = 1, before = 1;
-            for (int p = 0; p < s - 1; ++p) gvi__legendre(p, 1 - 2*in->table.c[j], &P, &before);
-            *to = P*in->table.b[j]/2;
+            if (k > 0 && k < s && s > 2)
+                *to = in->table.inv_gamma[k]*modes[k*R + j]*in->table.b[j];
+            if (k >= s) *to = gvi__mode_of_force(k, in->table.c[j])*in->table.b[j];
         }
+    if (s > 2) return;
+
+    gvi_real seen = 0;                            // of P_s, as the rule squares it: none by Gauss
+    for (int j = 0; j < st->r; ++j)
+        seen += in->dial.high[6*j]*gvi__mode_of_force(s + 1, in->table.c[j])*(gvi_real)(8*s + 4);
+    for (int j = 0; j < st->r; ++j)
+        in->dial.high[6*j] = seen > GVI__POOR ? in->dial.high[6*j]/seen : 0;
 }
 
 static gvi_real gvi__power(gvi_real x, int k)
@@ -8726,9 +8761,65 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
     return worst;
 }
 
+/* Mode s + 1 of coordinate i's velocity, times its inertia; v: (v0 + v1)/2, end: impulse there.
+   Explicit steps: v is a parabola, whose y_2 is what v is off dq/h, over 3, with the step's error
+   in q.  Else by forces: see gvi__coarse_resolution.                                          */
+static gvi_real gvi__coarse_mode(const gvi_stepper *st, int i, gvi_real v, gvi_real end)
+{
+    const struct gvi__private *in = &st->in;
+    const gvi_real *F = in->work.F + i*in->R, *a = in->dial.high, h = GVI_ABS(in->sized.h);
+    gvi_real high = 0, low = 0, unseen = 0, was;
+    if (in->stages == 0) return gvi__place_inertia(st, i)*(v - in->step.q[i]/in->sized.h)/3;
+
+    for (int j = 0; j < st->r; ++j, a += 6) {
+        high += a[0]*F[j];
+        low += a[1]*F[j];
+    }
+    in->dial.now[i] = h*low;
+    if (!gvi__nonzero(in->dial.high[0])) unseen = gvi__mode_since(st, i, &was);
+    if (gvi__constrained(st)) high += gvi__high_constraint_mode(st, i, end/h);
+    return GVI_ABS(h*high) + unseen;
+}
+
+/* Degrees 1 and 2, whose curves have too few modes: by mode s of the forces, F and those of
+   constraint, which Lobatto's points have and the curve lacks.  It makes y_(s+1) of the velocity:
+
+     10 |y_(s+1)|/(|p0| + |p1|)         all coordinates together, in the norm of M^-1
+
+   Where the rule does not see that mode of F, as Gauss's with r = s, the change of y_s since the
+   step before tells it, as in gvi__resolution.  From rest there is nothing to be relative to: 0. */
+static gvi_real gvi__coarse_resolution(const gvi_stepper *st)
+{
+    const struct gvi__private *in = &st->in;
+    const int n = st->n, stride = in->stages > 0 ? in->R : 1;
+    const gvi_real *shift = gvi__constraint_shift(st), h = GVI_ABS(in->sized.h);
+    gvi_real *end = in->answer, *v = end + n, began = 0, size = 0, far = 0, high = 0, floor = 0;
+
+    gvi__end_impulse(st, end);
+    gvi__add_scaled(n, (gvi_real)0.5, in->step.p, in->state.p, v);
+    if (in->stages == 0) gvi__over_mass(st, v, 1, 1);
+    for (int i = 0; i < n; ++i) {
+        const gvi_real m = gvi__place_inertia(st, i), p = in->state.p[i], q = in->state.q[i],
+                       all = GVI_ABS(p) + GVI_ABS(p + in->step.p[i]),
+                       y = gvi__coarse_mode(st, i, v[i], end[i]),
+                       rounding = GVI__EPS*h*GVI_ABS(in->work.F[i*stride])
+                                  + (shift ? m*shift[i]/h : 0);
+        began += p*p/m;
+        size += all*all/m;
+        far += q*q*m;
+        high += y*y/m;
+        floor += rounding*rounding/m;
+    }
+
+    const gvi_real whole = GVI_SQRT(size) + GVI_SQRT(far)/h;
+    if (size*GVI__RESTS*GVI__RESTS < whole*whole) floor += GVI__EPS*GVI__EPS*whole*whole;
+    if (!(began > 0) || high <= GVI__PULLED*GVI__PULLED*floor) return 0;
+    return 10*GVI_SQRT(high/size);
+}
+
 static gvi_status gvi__dial_accept(gvi_stepper *st)
 {
-    st->resolution = gvi__resolution(st);
+    st->resolution = st->s < 3 ? gvi__coarse_resolution(st) : gvi__resolution(st);
     if (st->resolution > st->in.desc.resolution)
         return gvi__report_status(st, GVI_E_RESOLUTION);
     st->counters.worst_resolution = gvi__larger(st->resolution, st->counters.worst_resolution);
