@@ -8813,7 +8813,7 @@ static gvi_real gvi__coarse_resolution(const gvi_stepper *st)
 
     const gvi_real whole = GVI_SQRT(size) + GVI_SQRT(far)/h;
     if (size*GVI__RESTS*GVI__RESTS < whole*whole) floor += GVI__EPS*GVI__EPS*whole*whole;
-    if (!(began > 0) || high <= GVI__PULLED*GVI__PULLED*floor) return 0;
+    if (!(began > 0) || high <= GVI__SOLVED*GVI__SOLVED*floor) return 0;
     return 10*GVI_SQRT(high/size);
 }
 
