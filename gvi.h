@@ -821,9 +821,9 @@ typedef struct gvi_desc {
                                           0: as many as it takes               */
     gvi_real          resolution;      /* the dial: the relative accuracy wanted of a step, below 1;
                                           less than eps is eps.  A step whose st.resolution is above
-                                          it is refused: GVI_E_RESOLUTION.  Needs degree 3 or more,
-                                          a rule of order 2 degree or more, and steps that are not
-                                          explicit.  0: none is refused, nothing is measured    */
+                                          it is refused: GVI_E_RESOLUTION.  Needs a rule of order 2
+                                          degree or more, not GVI_KICKS.  0: none is refused, nothing
+                                          is measured                           */
 } gvi_desc;
 
 #define GVI_FAULT_NONE (-1)            /* no effect, coordinate or point        */
@@ -1098,7 +1098,8 @@ typedef struct gvi_stepper {
     gvi_real        resolution;       /* of the last step that was tried, with desc.resolution:
                                          the largest relative error of a coordinate and its velocity
                                          together, as the curve's modes show it (THE DIAL); the true
-                                         error is usually far smaller, rarely 10 times as large */
+                                         error is usually far smaller, rarely 10 times as large.  At
+                                         degrees 1 and 2 of all coordinates together, by the forces */
     gvi_real        next;             /* the length that gvi_advance will try; may be set  */
     gvi_counters    counters;
     struct gvi__private in;
