@@ -822,8 +822,7 @@ typedef struct gvi_desc {
     gvi_real          resolution;      /* the dial: the relative accuracy wanted of a step, below 1;
                                           less than eps is eps.  A step whose st.resolution is above
                                           it is refused: GVI_E_RESOLUTION.  Needs a rule of order 2
-                                          degree or more, not GVI_KICKS.  0: none is refused, nothing
-                                          is measured                           */
+                                          degree or more.  0: none is refused, nothing measured */
 } gvi_desc;
 
 #define GVI_FAULT_NONE (-1)            /* no effect, coordinate or point        */
@@ -959,7 +958,7 @@ struct gvi__holonomic {               /* m rows on; C = stride of D_0..D_s      
     gvi_real *rho;                    /* [m][R + C] residual of the multipliers                */
     gvi_real *at, *g, *G;             /* [n][C] D; [2m][C] g and rate; [m][n][C]               */
     gvi_real *gram;                   /* [m][m][C] G M^-1 G', factored                         */
-    gvi_real *W, *y;                  /* [n][C] scratch; [m]                                   */
+    gvi_real *W, *y;                  /* [n][C] scratch; [7][m]                                */
     gvi_real *G1, *gram1;              /* [2][m][n], [m][m] at one point                        */
     gvi_real *column, *first;         /* [m][n+1], [m] where G is not 0: gvi__find_columns     */
     gvi_real *drops;                  /* [2][m] rows left out: gvi__factor_constraints         */
@@ -1098,8 +1097,8 @@ typedef struct gvi_stepper {
     gvi_real        resolution;       /* of the last step that was tried, with desc.resolution:
                                          the largest relative error of a coordinate and its velocity
                                          together, as the curve's modes show it (THE DIAL); the true
-                                         error is usually far smaller, rarely 10 times as large.  At
-                                         degrees 1 and 2 of all coordinates together, by the forces */
+                                         error is usually far smaller, rarely 10 times as large.
+                                         At degrees 1 and 2 all coordinates together, by forces */
     gvi_real        next;             /* the length that gvi_advance will try; may be set  */
     gvi_counters    counters;
     struct gvi__private in;
@@ -7758,7 +7757,7 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
         { &con->g, 2*m, C }, { &con->G, i*m*n, C }, { &con->gram, i*m*m, C },
         { &con->d, on, R + C },
         { &con->w, on, s + 1 }, { &con->rho, m, R + C }, { &con->lu, i*(s + 1), s + 1 },
-        { &con->y, on, m },
+        { &con->y, on, 7*m },
         { &con->G1, 2*m, n }, { &con->gram1, m, m }, { &con->column, m, n + 1 },
         { &con->first, on, m }, { &con->drops, 2*on, m }, { &con->noise, on, m }
 
@@ -7823,16 +7822,109 @@ GVI__OFFERED int gvi__place_explain(gvi_stepper *st, gvi_status status, gvi_real
 
 /* ---- multipliers and projection, for the caller ---- */
 
-/* Newton's method for the lambda with which G v + dg/dt stays 0 along the motion, its matrix A.
-   d/de at (t + e, q + e v, p + e (F + G' lambda)) by differences of order 8, which are halved in
-   every iteration: truncation and rounding meet where the changes to lambda and from it are least;
-   one alone may be small by chance.                                                           */
+/* z := d/de (G v + dg/dt) at (t + e, q + e v, p + e force), e = 0, by a difference to both sides */
+GVI__COLD gvi_status gvi__row_rates(gvi_stepper *st, const gvi_real *v, const gvi_real *force,
+                                    gvi_real delta, gvi_real *z)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m;
+    gvi_real *q = in->answer, *p = q + n, *u = p + n, *G = in->con.G1 + m*n;
+
+    gvi__zero((size_t)m, z);
+    for (gvi_real e = delta; e >= -delta; e -= 2*delta) {
+        const gvi_real t = st->t + e;
+        gvi__add_scaled(n, e, v, st->q, q);
+        gvi__add_scaled(n, e, force, st->p, p);
+        gvi__copy((size_t)n, v, u);
+        gvi_status status = gvi__velocity(st, t, q, p, u);
+        if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &t, q, G);
+        if (status != GVI_OK) return status;
+        (void)gvi__find_columns(st, 1, 1, G);
+        for (int a = 0; a < m; ++a) z[a] += (in->con.g[m + a] + gvi__row_dot(st, G, a, u))/(2*e);
+    }
+    return GVI_OK;
+}
+
+// f'M^-1 f of f = F + G'z, which is left in in->answer
+GVI__COLD gvi_real gvi__force_norm(gvi_stepper *st, const gvi_real *F, const gvi_real *z)
+{
+    gvi_real *f = st->in.answer, *d = f + st->n;
+    gvi__copy((size_t)st->n, F, f);
+    gvi__add_force(st, z, f);
+    gvi__copy((size_t)st->n, f, d);
+    gvi__over_inertia(st, d, 1, 1);
+    return GVI_ABS(gvi__dot(st->n, f, d));
+}
+
+/* Romberg's scheme, column by column in con.y: -A^-1 of rates by differences of delta, delta/2 ..,
+   of orders 2 to 12.  z: in, that of the next delta, after k others; out, what that changes. */
+static void gvi__romberg(const gvi_stepper *st, int k, gvi_real *z)
+{
+    const int m = st->in.con.m, last = k < 6 ? k : 6;
+    for (int a = 0; a < m; ++a) {
+        gvi_real *T = st->in.con.y + m + a, next = z[a], power = 1;
+        const gvi_real was = last > 0 ? T[(last - 1)*m] : 0;
+        for (int j = 0; j < 6 && j <= k; ++j) {
+            const gvi_real old = T[j*m];
+            T[j*m] = z[a] = next;
+            power *= 4;
+            next += (next - old)/(power - 1);
+        }
+        z[a] -= was;
+    }
+}
+
+/* con.y += the change of lambda with which G v + dg/dt stays 0 along the motion; that rate is
+   linear in lambda, its matrix A.  Truncation and rounding of its difference meet where two changes
+   by halves of delta are least; one alone may be small by chance.  Beyond a domain: nearer.   */
+GVI__COLD gvi_status gvi__hold_rate(gvi_stepper *st, const gvi_real *v, const gvi_real *F,
+                                    gvi_real delta)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m;
+    gvi_real *force = in->con.W + n, *z = in->con.rho, *best = z + m, *before = best + m,
+             *sum = in->con.y, least = GVI__MAX, last = GVI__MAX;
+    const gvi_real rounding = GVI__SOLVED*GVI__EPS;
+    gvi_status status = GVI_OK;
+
+    (void)gvi__force_norm(st, F, sum);
+    gvi__copy((size_t)n, in->answer, force);
+    for (int levels = 0, k = 0; levels < GVI__DIG; ++levels, ++k, delta /= 2) {
+        status = gvi__row_rates(st, v, force, delta, z);
+        for (int a = 0; a < m; ++a) z[a] = -z[a];
+        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
+        gvi__romberg(st, k, z);
+        const gvi_real *now = sum + (k < 5 ? k + 1 : 6)*m, size = gvi__force_norm(st, in->zeros, z),
+                       whole = gvi__force_norm(st, force, now)
+                               + gvi__force_norm(st, in->zeros, now);
+        if (status != GVI_OK || !gvi__finite(size)) {
+            last = GVI__MAX;
+            k = -1;
+            continue;
+        }
+
+        const gvi_real both = gvi__larger(size, last);
+        if (both < least/16) {
+            gvi__copy((size_t)m, size > last ? before : now, best);
+            least = both;
+        }
+        if (both <= rounding*(rounding*whole)) break;
+        if (both > 64*least && least <= GVI__EPS*whole) break;
+        gvi__copy((size_t)m, now, before);
+        last = k > 0 ? size : GVI__MAX;
+    }
+
+    if (!(least < GVI__MAX))
+        return status != GVI_OK ? status : gvi__report_status(st, GVI_E_NON_FINITE);
+    gvi__add_scaled(m, 1, best, sum, sum);
+    return GVI_OK;
+}
+
+/* A time in which much changes, |p||q|/p'v, is the first delta times 8.  d2L/dv2 by differences is
+   not A to rounding, so what it leaves is found once more.                                    */
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
 {
-    static const gvi_real weight[] = {
-        (gvi_real)4/5, -(gvi_real)1/5, (gvi_real)4/105, -(gvi_real)1/280
-    };
-    gvi_status trial = GVI_OK, status = gvi__ready(st, st && st->in.started);
+    gvi_status status = gvi__ready(st, st && st->in.started);
     if (status != GVI_OK) return status;
     if (!lambda) return gvi__refuse_call(st, "lambda is NULL");
     if (!st->in.con.bits) {
@@ -7843,9 +7935,8 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
 
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
-    gvi_real *q = in->answer, *p = q + n, *u = p + n, *v = in->con.W, *force = v + n;
-    gvi_real *z = in->con.rho, *rate = z + m, *sum = in->con.y, *best = in->con.g + 2*m;
-    gvi_real *F = in->step.p, least = GVI__MAX, last = GVI__MAX, size = 0, delta = 1;
+    gvi_real *u = in->answer + 2*n, *v = in->con.W, *F = in->step.p, size = 0;
+    const gvi_real *y = in->con.y;
     gvi_points at = gvi__one_point(st, &st->t, st->q);
     gvi__velocity_guess(st, u);
     if (m > 0) status = gvi__constraints_at(st, st->t, st->q, st->p, u, in->con.drops + m);
@@ -7854,54 +7945,16 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     at.v = v;
     if (status == GVI_OK) status = gvi__evaluate(st, &at, 0, 1);
     gvi__copy((size_t)n, at.f, F);
-    gvi__zero((size_t)m, sum);
+    gvi__zero((size_t)m, in->con.y);
 
-    // a time in which much changes: |p||q|/p'v
     for (int i = 0; i < n; ++i) size += GVI_ABS(st->p[i]*st->q[i]);
-    if (size > 0) delta = size/GVI_ABS(gvi__dot(n, st->p, v));
-    if (!gvi__finite(delta)) delta = 1;
-    for (int k = 0; k < GVI__DIG && m > 0 && status == GVI_OK; ++k) {
-        delta /= k == 0 ? 8 : 2;
-        gvi__zero((size_t)n, q);
-        gvi__add_force(st, sum, q);                // of all of it: what rounding took is seen
-        gvi__add_scaled(n, 1, q, F, force);
-        gvi__copy((size_t)n, q, p);
-        gvi__over_inertia(st, p, 1, 1);
-        const gvi_real whole = GVI_ABS(gvi__dot(n, q, p));
-        gvi__zero((size_t)m, rate);
-        trial = GVI_OK;
-        for (int j = 0; j < 8 && trial == GVI_OK; ++j) {
-            const gvi_real sign = j % 2 ? -1 : 1, e = sign*delta*(gvi_real)(j/2 + 1), t = st->t + e;
-            gvi__add_scaled(n, e, v, st->q, q);
-            gvi__add_scaled(n, e, force, st->p, p);
-            gvi__copy((size_t)n, v, u);
-            trial = gvi__velocity(st, t, q, p, u);
-            if (trial == GVI_OK)
-                trial = gvi__evaluate_constraints(st, 1, 1, &t, q, in->con.G1 + m*n);
-            if (trial == GVI_OK) (void)gvi__find_columns(st, 1, 1, in->con.G1 + m*n);
-            for (int a = 0; a < m; ++a)
-                rate[a] += (in->con.g[m + a] + gvi__row_dot(st, in->con.G1 + m*n, a, u))
-                           *(sign*weight[j/2]/delta);
-        }
-        for (int a = 0; a < m; ++a) z[a] = -rate[a];
-        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
-        size = -gvi__dot(m, rate, z);
-        if (trial != GVI_OK || !gvi__finite(size)) continue;      // beyond a domain: nearer
-        const gvi_real both = gvi__larger(size, last);
-        last = size;
-        if (!(both < 16*least) && both <= GVI__EPS*whole) break;
-        if (!gvi__nonzero(both)) break;            // e is rounded away
-        if (both < least/256 || !(least < GVI__MAX)) least = both, gvi__copy((size_t)m, sum, best);
-        gvi__add_scaled(m, 1, z, sum, sum);
-    }
-
-    if (!(least < GVI__MAX)) gvi__copy((size_t)m, sum, best);
-    if (status == GVI_OK && m > 0 && !(last < GVI__MAX))
-        status = trial != GVI_OK ? trial : gvi__report_status(st, GVI_E_NON_FINITE);
+    const gvi_real time = size > 0 ? size/GVI_ABS(gvi__dot(n, st->p, v)) : 1;
+    for (int pass = 0; m > 0 && pass < 1 + (in->adds_p > 0) && status == GVI_OK; ++pass)
+        status = gvi__hold_rate(st, v, F, gvi__finite(time) ? time/8 : 1);
     if (status != GVI_OK) return gvi__done(st, status);
     for (int e = 0; e < in->desc.effect_count; ++e)
         for (int a = 0; a < in->desc.effects[e].rows; ++a)
-            *lambda++ = gvi__constraints_on(st) >> e & 1u ? *best++ : 0;
+            *lambda++ = gvi__constraints_on(st) >> e & 1u ? *y++ : 0;
     return gvi__done(st, GVI_OK);
 }
 
