@@ -7110,12 +7110,6 @@ static gvi_real gvi__place_bow(const gvi_stepper *st, int i)
 }
 
 #ifndef GVI_NO_KICKS
-// what g missed, for G changed by `bend` along a move of terms of that size: is it no rounding?
-static int gvi__beyond_rounding(gvi_real missed, gvi_real bend, gvi_real size)
-{
-    return bend > GVI__SOLVED*GVI__EPS*size && missed*bend > GVI__GRAIN*GVI__EPS*size*size;
-}
-
 // path += h M^-1 |G|'|z|: how far each impulse alone would move the coordinates, at one point
 static void gvi__add_path(const gvi_stepper *st, gvi_real h, const gvi_real *z, gvi_real *push,
                           gvi_real *path)
@@ -7129,64 +7123,70 @@ static void gvi__add_path(const gvi_stepper *st, gvi_real h, const gvi_real *z, 
     for (int i = 0; i < n; ++i) path[i] += GVI_ABS(h*push[i]);
 }
 
+// the largest |g_a| in eps of its terms, the most so far, in `unit`; more than all where not finite
+static gvi_real gvi__drift_miss(const gvi_stepper *st, gvi_real t, const gvi_real *path,
+                                const gvi_real *G, gvi_real *unit)
+{
+    const gvi_real *g = st->in.con.g, *rate = g + st->in.con.m;
+    gvi_real size = 0;
+    for (int a = 0; a < st->in.con.m; ++a) {
+        unit[a] = gvi__larger(gvi__terms(st, 1, t, path, G, rate, a), unit[a]);
+        if (!gvi__finite(g[a])) return 2*GVI__MAX;
+        if (GVI_ABS(g[a]) > size*GVI__EPS*unit[a]) size = GVI_ABS(g[a])/(GVI__EPS*unit[a]);
+    }
+    return size;
+}
+
+// Q, step.q and step.p moved by the impulses G0' z
+static void gvi__drift_move(gvi_stepper *st, const gvi__origin *from, gvi_real h, gvi_real *path)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n;
+    gvi_real *z = in->con.rho, *d = in->con.W;
+    for (int a = 0; a < in->con.m; ++a) z[a] = -in->con.g[a]/h;
+    gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
+    gvi__add_path(st, h, z, d, path);
+    gvi__zero((size_t)n, d);
+    gvi__add_force(st, z, d);
+    gvi__add_scaled(n, 1, d, in->step.p, in->step.p);
+    gvi__over_mass(st, d, 1, 1);
+    gvi__add_scaled(n, h, d, in->step.q, in->step.q);
+    gvi__add_scaled(n, 1, in->step.q, from->q, in->work.Q);
+}
+
 /* RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, from a simplified Newton iteration.  A
-   row is rounding if it exceeds by a quarter what its last correction, and the change of G along
-   it, should have left; or by what q1 was added up from, q0 and the paths, which cancel where q1
-   is near 0.  An error four times the least so far is divergence.                             */
+   row is rounding by what q1 was added up from, q0 and the paths, which cancel where q1 is near 0.
+   An error four times the least so far is divergence.                                         */
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     if (!gvi__constrained(st)) return GVI_OK;
-    gvi_real before = 0, least = GVI__MAX, *Q = in->work.Q, *z = in->con.rho, *left = in->con.y,
-             *unit = z + m, *d = in->con.W, *g = in->con.g, *path = in->answer,
+    gvi_real before = 0, least = GVI__MAX, *unit = in->con.rho + m, *path = in->answer,
              *G = in->con.G1 + m*n;                  // G0 is before it
     const gvi_real t = from->t + (from->t_low + h);
     gvi_status status = gvi__constraints_at(st, from->t, from->q, NULL, NULL, in->con.drops);
     gvi__zero((size_t)n, in->step.p_low);
+    gvi__zero((size_t)m, unit);
     in->con.again = 0;
     for (int i = 0; i < n; ++i) path[i] = GVI_ABS(from->q[i]) + GVI_ABS(in->step.q[i]);
     for (int k = 0; ; ++k) {
-        gvi_real size = 0;
-        int finite = 1;
-        if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &t, Q, G);
+        if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &t, in->work.Q, G);
         in->con.made = k;
         if (status != GVI_OK) return status;
         if (k == 0 && !in->con.settled) (void)gvi__find_columns(st, 1, 1, G);
-        for (int a = 0; a < m; ++a) {
-            const gvi_real terms = gvi__terms(st, 1, t, path, G, g + m, a);
-            gvi_real change = -z[a], all = 0;
-            for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1)) {
-                change += h*(G[a*n + i]*d[i]);
-                all += GVI_ABS(h*(G[a*n + i]*d[i]));
-            }
-            const gvi_real missed = GVI_ABS(g[a] - left[a] - change/2), bend = GVI_ABS(change);
-            const int rounding = k > 0 && !gvi__beyond_rounding(missed/64, bend, all)
-                                 && GVI_ABS(g[a]) > (gvi_real)1.25*(GVI_ABS(left[a]) + bend);
-            if (k == 0 || terms > unit[a]) unit[a] = terms;
-            if (!rounding && GVI_ABS(g[a]) > size*GVI__EPS*unit[a])
-                size = GVI_ABS(g[a])/(GVI__EPS*unit[a]);
-            finite &= gvi__finite(g[a]);
-        }
-        if (finite && size <= GVI__GRAIN && k > 0 && !(size < before/2))
+        const gvi_real size = gvi__drift_miss(st, t, path, G, unit);
+        if (size <= GVI__GRAIN && k > 0 && !(size < before/2))
             return gvi__report_status(st, GVI_OK);
-        if (size < least) least = size;
+
         // far off already, it was on its way to infinity
-        if (!finite && !GVI__LOOKS(st) && before*GVI__EPS < (gvi_real)0.125)
+        if (!gvi__finite(size) && !GVI__LOOKS(st) && before*GVI__EPS < (gvi_real)0.125)
             return gvi__report_status(st, GVI_E_NON_FINITE);
-        if (!finite || k > 64 || size > 4*(least + 256))
+        least = gvi__smaller(size, least);
+        if (!gvi__finite(size) || k > 64 || size > 4*(least + 256))
             return gvi__report_status(st, GVI_E_CONVERGENCE);
         before = size;
-        for (int a = 0; a < m; ++a) z[a] = -g[a]/h;
-        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
-        gvi__add_path(st, h, z, d, path);
-        gvi__zero((size_t)n, d);
-        gvi__add_force(st, z, d);
-        gvi__add_scaled(n, 1, d, in->step.p, in->step.p);
-        gvi__over_mass(st, d, 1, 1);
-        gvi__add_scaled(n, h, d, in->step.q, in->step.q);
-        gvi__add_scaled(n, 1, in->step.q, from->q, Q);
-        for (int a = 0; a < m; ++a) z[a] = h*gvi__row_dot(st, G, a, d), left[a] = g[a] + z[a];
+        gvi__drift_move(st, from, h, path);
     }
 }
 #endif
