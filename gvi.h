@@ -6654,58 +6654,73 @@ GVI__COLD int gvi__spare(const gvi_stepper *st, int S, int i, gvi_real entry, co
     return spare;
 }
 
+/* Column i of D L': G_j M^-1 G_i', less what the rows before j make of it, for j up to i.  W, here
+   - M^-1 G_i', is 0 before and behind.                                                        */
+static void gvi__gram_column(const gvi_stepper *st, int S, int count, const gvi_real *G,
+                             gvi_real *A, int i)
+{
+    const struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m, full = gvi__full_mass(in), from = (int)in->con.first[i];
+    gvi_real *W = in->con.W;
+
+    for (int j = gvi__column(st, i, 0); j < n; j = gvi__column(st, i, j + 1)) {
+        const gvi_real *g = G + (i*n + j)*S, inverse = full ? 1 : in->mass.inverse[j];
+        for (int k = 0; k < count; ++k) W[j*S + k] = -(g[k]*inverse);
+    }
+    if (full) gvi__over_inertia(st, W, S, count);
+    for (int j = from; j <= i; ++j) {
+        gvi_real *u = A + (j*m + i)*S;
+        for (int k = 0; k < count; ++k) u[k] = 0;
+        for (int l = gvi__column(st, j, 0); l < n; l = gvi__column(st, j, l + 1))
+            gvi__subtract_at(S, count, G + (j*n + l)*S, W + l*S, u);
+        if (j == i) break;
+        int l = (int)in->con.first[j];
+        if (l < from) l = from;
+        for (; l < j; ++l) gvi__subtract_at(S, count, A + (j*m + l)*S, A + (l*m + i)*S, u);
+    }
+    if (full) gvi__zero((size_t)(n*S), W);
+    for (int j = gvi__column(st, i, 0); j < n; j = gvi__column(st, i, j + 1))
+        for (int k = 0; k < count; ++k) W[j*S + k] = 0;
+}
+
+/* Row i of L and its pivot at point k.  Does the row depend?  A pivot of 64 m roundings, its own
+   and those of the rows that it is made of, says so.                                          */
+static int gvi__gram_pivot(const gvi_stepper *st, int S, gvi_real *A, int i, gvi_real *pivot)
+{
+    const int m = st->in.con.m, from = (int)st->in.con.first[i];
+    const gvi_real was = GVI_ABS(A[(i*m + i)*S]);
+    gvi_real rest = A[(i*m + i)*S], size = was;
+    for (int j = from; j < i; ++j) {
+        const gvi_real u = A[(j*m + i)*S], l = u*A[(j*m + j)*S];
+        A[(i*m + j)*S] = l;
+        rest -= l*u;
+    }
+    for (int j = from; j < i && GVI_ABS(rest) < was/16; ++j) {
+        const gvi_real l = A[(i*m + j)*S];
+        size += l*l*gvi__entry(st, S, j, A);
+    }
+    *pivot = rest;
+    return !(GVI_ABS(rest) > GVI__GRAIN*(gvi_real)m*GVI__EPS*size);
+}
+
 /* A := L D L' of G M^-1 G' in its envelope, L below the diagonal, 1/D on it and D L' above it; M(q)
-   is that of the stage values, one for one, or of the one point.  A pivot of 64 m roundings, its
-   own and those of the rows that it is made of, says that the row depends on those before it.  At
-   one point it, or the spare one of these, is then left out: 1/D and its L are 0, and so is its
+   is that of the stage values, one for one, or of the one point.  At one point a row that depends
+   on those before it, or the spare one of these, is left out: 1/D and its L are 0, and so is its
    multiplier; drops[a] is what the diagonal entry was, or 0 for a row that is kept.  At more points
    the same rows are left out, and the rest has to have full rank.                             */
 static gvi_status gvi__factor_rows(gvi_stepper *st, int S, int count, const gvi_real *G,
                                    gvi_real *A, gvi_real *drops)
 {
-    const struct gvi__private *in = &st->in;
-    const int n = st->n, m = in->con.m, full = gvi__full_mass(in);
-    const gvi_real *first = in->con.first, least = GVI__GRAIN*(gvi_real)m*GVI__EPS;
-    gvi_real *W = in->con.W;
-
-    gvi__zero((size_t)(n*S), W);
+    const int m = st->in.con.m;
+    gvi__zero((size_t)(st->n*S), st->in.con.W);
     gvi__zero((size_t)(count == 1 ? m : 0), drops);
     for (int i = 0; i < m; ++i) {
-        const int from = (int)first[i];
         int spare = i;
-        gvi_real *d = A + (i*m + i)*S;
-        // W = - M^-1 G_i'
-        for (int j = gvi__column(st, i, 0); j < n; j = gvi__column(st, i, j + 1)) {
-            const gvi_real *g = G + (i*n + j)*S, inverse = full ? 1 : in->mass.inverse[j];
-            for (int k = 0; k < count; ++k) W[j*S + k] = -(g[k]*inverse);
-        }
-        if (full) gvi__over_inertia(st, W, S, count);
-        for (int j = from; j <= i; ++j) {
-            gvi_real *u = A + (j*m + i)*S;
-            for (int k = 0; k < count; ++k) u[k] = 0;
-            for (int l = gvi__column(st, j, 0); l < n; l = gvi__column(st, j, l + 1))
-                gvi__subtract_at(S, count, G + (j*n + l)*S, W + l*S, u);
-            if (j == i) break;
-            int l = (int)first[j];
-            if (l < from) l = from;
-            for (; l < j; ++l) gvi__subtract_at(S, count, A + (j*m + l)*S, A + (l*m + i)*S, u);
-        }
-        if (full) gvi__zero((size_t)(n*S), W);
-        for (int j = gvi__column(st, i, 0); j < n; j = gvi__column(st, i, j + 1))
-            for (int k = 0; k < count; ++k) W[j*S + k] = 0;
+        gvi_real *d = A + (i*m + i)*S, rest;
+        gvi__gram_column(st, S, count, G, A, i);
         for (int k = 0; k < count; ++k) {
             const gvi_real was = GVI_ABS(d[k]);
-            gvi_real rest = d[k], size = was;
-            for (int j = from; j < i; ++j) {
-                const gvi_real u = A[(j*m + i)*S + k], l = u*A[(j*m + j)*S + k];
-                A[(i*m + j)*S + k] = l;
-                rest -= l*u;
-            }
-            for (int j = from; j < i && GVI_ABS(rest) < was/16; ++j) {
-                const gvi_real l = A[(i*m + j)*S + k];
-                size += l*l*gvi__entry(st, S, j, A + k);
-            }
-            const int depends = !(GVI_ABS(rest) > least*size);
+            const int depends = gvi__gram_pivot(st, S, A + k, i, &rest);
             if (!(was <= GVI__MAX) || !gvi__finite(rest))
                 return gvi__report_status(st, GVI_E_NON_FINITE);
             if (count == 1 && depends && !(drops[i] > 0)) spare = gvi__spare(st, S, i, was, A);
@@ -7314,6 +7329,60 @@ static void gvi__keep_noise(gvi_stepper *st, int start)
     }
 }
 
+// does the end lie on the constraints, with the rank of the start?  start: of a motion
+static gvi_status gvi__check_end(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p,
+                                 gvi_real *v, int start)
+{
+    struct gvi__private *in = &st->in;
+    const int m = in->con.m;
+    gvi_real *drops = in->con.drops + m;
+    int redundant = 0, more = 0, row = 0;
+
+    if (start) GVI__LOOK(st, 1);
+    gvi_status status = gvi__constraints_at(st, t, q, p, v, drops);
+    if (start) GVI__LOOK(st, 0);
+    if (status != GVI_OK) return status;
+    gvi__keep_noise(st, start);
+    for (int a = 0; a < m; ++a) {
+        redundant |= drops[a] > 0;
+        more += (drops[a] > 0) - (in->con.drops[a] > 0);
+        if ((drops[a] > 0) != (in->con.drops[a] > 0)) row = a;
+    }
+
+    if (!start && more != 0) return gvi__report_row(st, GVI_E_SINGULAR, row, GVI_FAULT_NONE);
+    status = gvi__check_rank(st, start ? 0 : in->con.margin);
+    if ((start || redundant) && status == GVI_OK)
+        status = gvi__fulfilled(st, t, q, p, v, start);
+    return status;
+}
+
+/* step.p += G'z, y += z such that r = G v + dg/dt is 0 with the last G.  Returns r' A^-1 r, twice
+   the kinetic energy in it, and in *row the one that has most of it.                          */
+static gvi_real gvi__project_momentum(gvi_stepper *st, const gvi_real *v, gvi_real *push, int *row)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m;
+    gvi_real *r = in->con.g, *z = in->con.rho, size = 0;
+
+    for (int a = 0; a < m; ++a) r[a] = z[a] = -(r[m + a] + gvi__row_dot(st, in->con.G1, a, v));
+    gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
+    *row = 0;
+    for (int a = 0; a < m; ++a) {
+        size += r[a]*z[a];
+        if (r[a]*z[a] > r[*row]*z[*row]) *row = a;
+        in->con.y[a] += z[a];
+    }
+
+    gvi__zero((size_t)n, push);
+    gvi__add_force(st, z, push);
+    for (int i = 0; i < n; ++i) {
+        const gvi__two sum = gvi__add_low(in->step.p[i], in->step.p_low[i], push[i], 0);
+        in->step.p[i] = sum.hi;
+        in->step.p_low[i] = sum.lo;
+    }
+    return size;
+}
+
 /* step.p += G' y such that G v + dg/dt = 0 at the end: once, and once more for the rounding of
    that, or with Lagrangian terms until that is left.  At a start, what is farther off than
    rounding is refused; for v by the kinetic energy in it, r' A^-1 r/2, r = G v + dg/dt.      */
@@ -7322,9 +7391,9 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, passes = in->adds_p ? 40 : 2;
     const gvi_real t = from->t + (from->t_low + in->dt), far = GVI__HELD*GVI__EPS;
-    gvi_real *q = in->answer, *p = q + n, *v = p + n, *r = in->con.g, *z = in->con.rho,
-             *drops = in->con.drops + m, energy = 0, size = 0, before = GVI__MAX;
-    int redundant = 0, more = 0, row = 0, slow = 0;
+    gvi_real *q = in->answer, *p = q + n, *v = p + n, *r = in->con.g, *drops = in->con.drops + m,
+             energy = 0, size = 0, before = GVI__MAX;
+    int row = 0, slow = 0;
 
     for (int i = 0; i < n; ++i) {
         // rounded as the commit will: A v is to be 0 there
@@ -7334,48 +7403,18 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     }
 
     gvi__velocity_guess(st, v);
-    if (start) GVI__LOOK(st, 1);
-    gvi_status status = gvi__constraints_at(st, t, q, p, v, drops);
-    if (start) GVI__LOOK(st, 0);
-    if (status == GVI_OK) gvi__keep_noise(st, start);
-    for (int a = 0; a < m; ++a) {
-        redundant |= drops[a] > 0;
-        more += (drops[a] > 0) - (in->con.drops[a] > 0);
-        if ((drops[a] > 0) != (in->con.drops[a] > 0)) row = a;
-    }
-
-    if (!start && status == GVI_OK && more != 0)
-        status = gvi__report_row(st, GVI_E_SINGULAR, row, GVI_FAULT_NONE);
-
-    if (status == GVI_OK) status = gvi__check_rank(st, start ? 0 : in->con.margin);
-    if ((start || redundant) && status == GVI_OK)
-        status = gvi__fulfilled(st, t, q, p, v, start);
+    gvi_status status = gvi__check_end(st, t, q, p, v, start);
     if (status != GVI_OK) return status;
     gvi__zero((size_t)m, in->con.y);
     for (int pass = 0; pass < passes; ++pass) {
-        row = 0;
-        size = 0;
         for (int i = 0; i < n; ++i) p[i] = from->p[i] + (in->step.p[i] + in->step.p_low[i]);
         // slow: inertia is far from where v was
         status = slow ? gvi__constraints_at(st, t, q, p, v, drops) : gvi__velocity(st, t, q, p, v);
         if (status != GVI_OK) return status;
         energy = GVI_ABS(gvi__dot(n, p, v));
-        for (int a = 0; a < m; ++a) r[a] = z[a] = -(r[m + a] + gvi__row_dot(st, in->con.G1, a, v));
-        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
-        for (int a = 0; a < m; ++a) {
-            size += r[a]*z[a];
-            if (r[a]*z[a] > r[row]*z[row]) row = a;
-            in->con.y[a] += z[a];
-        }
+        size = gvi__project_momentum(st, v, p, &row);
         if (start && pass == 0 && !(size <= GVI__MAX && size <= far*far*energy))
             return gvi__report_row(st, GVI_E_CONSTRAINT, row, GVI_FAULT_NONE);
-        gvi__zero((size_t)n, p);
-        gvi__add_force(st, z, p);
-        for (int i = 0; i < n; ++i) {
-            const gvi__two sum = gvi__add_low(in->step.p[i], in->step.p_low[i], p[i], 0);
-            in->step.p[i] = sum.hi;
-            in->step.p_low[i] = sum.lo;
-        }
         if (pass > 0 && !(size < before)) break;
         slow = !(size < before/64);
         before = size;
@@ -8023,9 +8062,77 @@ static gvi_real gvi__arrived(const gvi_stepper *st, gvi_real q, gvi_real e)
     return GVI_ABS(q + e) <= rounding*GVI_ABS(q) ? 0 : q + e;
 }
 
-/* The iteration q' = q + e, e = M^-1 G'z with g + G(e_new - e) = 0: (G M^-1 G') z = G e - g at the
-   last q'.  So e is normal to the constraints where it ends, and e'M e is z'(G e - g).  What moves
-   along the constraints is damped, by `share`, where changes grow; g is taken to 0 in any case. */
+/* One iteration q' = q + e, e = M^-1 G'z with g + G(e_new - e) = 0: (G M^-1 G') z = G e - g at the
+   last q'.  So e is normal to the constraints where it ends, and *way = e'M e is z'(G e - g).
+   What moves along the constraints is damped, by `share`; g is taken to 0 in any case.  f: M e.
+   Returns the work of the forces along the change of e, which has one unit, and is not 0 where M
+   alone changes; *size: what that is made of.                                                 */
+static gvi_real gvi__approach(gvi_stepper *st, const gvi_real *q, gvi_real share, gvi_real *way,
+                              gvi_real *size)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m;
+    gvi_real *e = in->step.q, *f = in->step.p, *next = in->answer, *d = next + n, *push = in->point,
+             *path = push + 2*n, *z = in->con.rho, *r = z + m, *back = r + m, change = 0;
+
+    for (int a = 0; a < m; ++a) {
+        back[a] = -in->con.g[a];
+        z[a] = r[a] = gvi__row_dot(st, in->con.G1, a, e) - in->con.g[a];
+    }
+    gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
+    gvi__solve_constraints(st, in->con.gram1, 1, 1, back, 1);
+    *way = gvi__dot(m, r, z);
+    for (int a = 0; a < m; ++a) z[a] = share*z[a] + (1 - share)*back[a];
+
+    gvi__zero((size_t)n, push);
+    gvi__add_force(st, z, push);
+    gvi__copy((size_t)n, push, d);
+    gvi__over_inertia(st, d, 1, 1);
+    *size = 0;
+    for (int i = 0; i < n; ++i) {
+        change += (GVI_ABS(push[i]) + GVI_ABS(f[i]))*GVI_ABS(d[i] - share*e[i]);
+        *size += (GVI_ABS(push[i]) + GVI_ABS(f[i]))*(GVI_ABS(d[i]) + GVI_ABS(e[i]));
+        f[i] = push[i] + (1 - share)*f[i];
+        e[i] = d[i] + (1 - share)*e[i];
+        next[i] = gvi__arrived(st, q[i], e[i]);
+        path[i] = GVI_ABS(q[i]) + GVI_ABS(e[i]);
+    }
+    return change;
+}
+
+// to the q' on the constraints, in->answer: iterations until their change is rounding, at u
+static gvi_status gvi__find_nearest(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *u,
+                                    gvi_real *way)
+{
+    struct gvi__private *in = &st->in;
+    const gvi_real *next = in->answer, *path = in->point + 2*st->n, *z = in->con.rho;
+    gvi_real *drops = in->con.drops + in->con.m, change = GVI__MAX, before = 0, size = 0, share = 1;
+    // what a d2L/dv2 by differences leaves of a change
+    const gvi_real root = GVI_SQRT(GVI__EPS),
+                   least = in->adds_p ? 16*root : GVI_SQRT(GVI__EPS*root);
+
+    for (int k = 0; ; ++k) {
+        gvi_status status = gvi__constraints_at(st, t, next, NULL, u, drops);
+        gvi_real noise = 0;                        // the work that the rounding of g does
+        for (int a = 0; a < in->con.m && k > 0 && status == GVI_OK; ++a)
+            noise += GVI__GRAIN*GVI_ABS(z[a])
+                     *(GVI_ABS(in->con.g[a])
+                       + GVI__EPS*gvi__terms(st, 1, t, path, in->con.G1, in->con.g + in->con.m, a));
+
+        if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK
+            && change <= least*size + noise) {
+            if (gvi__fulfilled(st, t, next, NULL, u, 1) == GVI_OK) return GVI_OK;
+            status = gvi__constraints_at(st, t, next, NULL, u, drops);
+        }
+        if (k > 1000 && status == GVI_OK) status = GVI_E_CONVERGENCE;
+        if (status != GVI_OK) return status;
+
+        before = change;
+        change = gvi__approach(st, q, share, way, &size);
+        if (change > before && share > (gvi_real)0.02) share /= 2;
+    }
+}
+
 GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v,
                                gvi_real *moved)
 {
@@ -8038,64 +8145,16 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
 
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
-    gvi_real *e = in->step.q, *f = in->step.p, *next = in->answer, *d = next + n, *u = d + n,
-             *push = in->point, *path = push + 2*n, *z = in->con.rho, *r = z + m, *back = r + m,
-             *drops = in->con.drops + m, change = GVI__MAX, before = 0, size = 0, share = 1;
-    // what a d2L/dv2 by differences leaves of a change
-    const gvi_real root = GVI_SQRT(GVI__EPS),
-                   least = in->adds_p ? 16*root : GVI_SQRT(GVI__EPS*root);
+    gvi_real *e = in->step.q, *u = in->answer + 2*n, *drops = in->con.drops + m;
     gvi__zero((size_t)n, e);
-    gvi__zero((size_t)n, f);
-    gvi__copy((size_t)n, q, next);
+    gvi__zero((size_t)n, in->step.p);
+    gvi__copy((size_t)n, q, in->answer);
     gvi__copy((size_t)n, v, u);
     gvi__forget_columns(st);
     if (gvi__constraints_on(st) & ~in->con.checked) status = gvi__check_derivatives(st, t, q);
     if (status != GVI_OK) return status;
     GVI__LOOK(st, 1);
-    for (int k = 0; ; ++k) {
-        status = gvi__constraints_at(st, t, next, NULL, u, drops);
-        gvi_real noise = 0;                        // the work that the rounding of g does
-        for (int a = 0; a < m && k > 0 && status == GVI_OK; ++a)
-            noise += GVI__GRAIN*GVI_ABS(z[a])
-                     *(GVI_ABS(in->con.g[a])
-                       + GVI__EPS*gvi__terms(st, 1, t, path, in->con.G1, in->con.g + m, a));
-
-        if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK
-            && change <= least*size + noise) {
-            if (gvi__fulfilled(st, t, next, NULL, u, 1) == GVI_OK) break;
-            status = gvi__constraints_at(st, t, next, NULL, u, drops);
-        }
-        if (k > 1000 && status == GVI_OK) status = GVI_E_CONVERGENCE;
-        if (status != GVI_OK) break;
-
-        for (int a = 0; a < m; ++a) {
-            back[a] = -in->con.g[a];
-            z[a] = r[a] = gvi__row_dot(st, in->con.G1, a, e) - in->con.g[a];
-        }
-        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
-        gvi__solve_constraints(st, in->con.gram1, 1, 1, back, 1);
-        far[0] = gvi__dot(m, r, z);
-        for (int a = 0; a < m; ++a) z[a] = share*z[a] + (1 - share)*back[a];
-
-        gvi__zero((size_t)n, push);
-        gvi__add_force(st, z, push);
-        gvi__copy((size_t)n, push, d);
-        gvi__over_inertia(st, d, 1, 1);
-
-        before = change;
-        change = size = 0;
-        for (int i = 0; i < n; ++i) {
-            // by the force's work, which has one unit, and is not 0 where M alone changes
-            change += (GVI_ABS(push[i]) + GVI_ABS(f[i]))*GVI_ABS(d[i] - share*e[i]);
-            size += (GVI_ABS(push[i]) + GVI_ABS(f[i]))*(GVI_ABS(d[i]) + GVI_ABS(e[i]));
-            f[i] = push[i] + (1 - share)*f[i];
-            e[i] = d[i] + (1 - share)*e[i];
-            next[i] = gvi__arrived(st, q[i], e[i]);
-            path[i] = GVI_ABS(q[i]) + GVI_ABS(e[i]);
-        }
-        if (change > before && share > (gvi_real)0.02) share /= 2;
-    }
-
+    status = gvi__find_nearest(st, t, q, u, far);
     GVI__LOOK(st, 0);
     if (status == GVI_OK) far[1] = gvi__project_velocity(st, u);
     // rows that are left out had no part in this
