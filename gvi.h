@@ -5517,8 +5517,10 @@ static int gvi__place_steps(gvi_stepper *st, gvi_real h, int count)
     gvi_real t0 = st->t0;
     int made = 0;
 
-    // apart: constraints; resolution: each step is measured
-    if (!(gvi__parts(in) & GVI__IN_KICKS) || in->apart || in->desc.resolution > 0) return 0;
+    if (!(gvi__parts(in) & GVI__IN_KICKS) || in->apart) return 0;         // apart: constraints
+#ifndef GVI_NO_DIAL
+    if (in->dial.high) return 0;                   // each step is measured
+#endif
     gvi__weights_for(st, h);
     gvi__drifts_for(st, h);
     for (; made < count; ++made) {
