@@ -828,9 +828,8 @@ typedef struct gvi_desc {
                                           0: as many as it takes               */
     gvi_real          resolution;      /* the dial: the relative accuracy wanted of a step, below 1;
                                           less than eps is eps.  A step whose st.resolution is above
-                                          it is refused: GVI_E_RESOLUTION.  Needs degree 3 or more,
-                                          a rule of order 2 degree or more, and steps that are not
-                                          explicit.  0: none is refused, nothing is measured    */
+                                          it is refused: GVI_E_RESOLUTION.  Needs a rule of order 2
+                                          degree or more.  0: none is refused, nothing measured */
 } gvi_desc;
 
 #define GVI_FAULT_NONE (-1)            /* no effect, coordinate or point        */
@@ -967,7 +966,7 @@ struct gvi__holonomic {               /* m rows on; C = stride of D_0..D_s      
     gvi_real *rho;                    /* [m][R + C] residual of the multipliers                */
     gvi_real *at, *g, *G;             /* [n][C] D; [2m][C] g and rate; [m][n][C]               */
     gvi_real *gram;                   /* [m][m][C] G M^-1 G', factored                         */
-    gvi_real *W, *y;                  /* [n][C] scratch; [m]                                   */
+    gvi_real *W, *y;                  /* [n][C] scratch; [7][m]                                */
     gvi_real *G1, *gram1;              /* [2][m][n], [m][m] at one point                        */
     gvi_real *column, *first;         /* [m][n+1], [m] where G is not 0: gvi__find_columns     */
     gvi_real *drops;                  /* [2][m] rows left out: gvi__factor_constraints         */
@@ -1106,7 +1105,8 @@ typedef struct gvi_stepper {
     gvi_real        resolution;       /* of the last step that was tried, with desc.resolution:
                                          the largest relative error of a coordinate and its velocity
                                          together, as the curve's modes show it (THE DIAL); the true
-                                         error is usually far smaller, rarely 10 times as large */
+                                         error is usually far smaller, rarely 10 times as large.
+                                         At degrees 1 and 2 all coordinates together, by forces */
     gvi_real        next;             /* the length that gvi_advance will try; may be set  */
     gvi_counters    counters;
     struct gvi__private in;
@@ -1990,6 +1990,14 @@ static void gvi__legendre(int k, gvi_real x, gvi_real *P, gvi_real *before)
     const gvi_real was = *P;
     *P = ((gvi_real)(2*k + 1)*x*was - (gvi_real)k**before)/(gvi_real)(k + 1);
     *before = was;
+}
+
+// what a force at tau, times its weight, gives to the velocity's Legendre mode k > 0: P_(k-1)/2
+GVI__OFFERED gvi_real gvi__mode_of_force(int k, gvi_real tau)
+{
+    gvi_real P = 1, before = 1;
+    for (int p = 0; p < k - 1; ++p) gvi__legendre(p, 1 - 2*tau, &P, &before);
+    return P/2;
 }
 
 // the same in double-word arithmetic
@@ -5520,6 +5528,9 @@ static int gvi__place_steps(gvi_stepper *st, gvi_real h, int count)
     int made = 0;
 
     if (!(gvi__parts(in) & GVI__IN_KICKS) || in->apart) return 0;         // apart: constraints
+#ifndef GVI_NO_DIAL
+    if (in->dial.high) return 0;                   // each step is measured
+#endif
     gvi__weights_for(st, h);
     gvi__drifts_for(st, h);
     for (; made < count; ++made) {
@@ -6673,58 +6684,73 @@ GVI__COLD int gvi__spare(const gvi_stepper *st, int S, int i, gvi_real entry, co
     return spare;
 }
 
+/* Column i of D L': G_j M^-1 G_i', less what the rows before j make of it, for j up to i.  W, here
+   - M^-1 G_i', is 0 before and behind.                                                        */
+static void gvi__gram_column(const gvi_stepper *st, int S, int count, const gvi_real *G,
+                             gvi_real *A, int i)
+{
+    const struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m, full = gvi__full_mass(in), from = (int)in->con.first[i];
+    gvi_real *W = in->con.W;
+
+    for (int j = gvi__column(st, i, 0); j < n; j = gvi__column(st, i, j + 1)) {
+        const gvi_real *g = G + (i*n + j)*S, inverse = full ? 1 : in->mass.inverse[j];
+        for (int k = 0; k < count; ++k) W[j*S + k] = -(g[k]*inverse);
+    }
+    if (full) gvi__over_inertia(st, W, S, count);
+    for (int j = from; j <= i; ++j) {
+        gvi_real *u = A + (j*m + i)*S;
+        for (int k = 0; k < count; ++k) u[k] = 0;
+        for (int l = gvi__column(st, j, 0); l < n; l = gvi__column(st, j, l + 1))
+            gvi__subtract_at(S, count, G + (j*n + l)*S, W + l*S, u);
+        if (j == i) break;
+        int l = (int)in->con.first[j];
+        if (l < from) l = from;
+        for (; l < j; ++l) gvi__subtract_at(S, count, A + (j*m + l)*S, A + (l*m + i)*S, u);
+    }
+    if (full) gvi__zero((size_t)(n*S), W);
+    for (int j = gvi__column(st, i, 0); j < n; j = gvi__column(st, i, j + 1))
+        for (int k = 0; k < count; ++k) W[j*S + k] = 0;
+}
+
+/* Row i of L and its pivot at point k.  Does the row depend?  A pivot of 64 m roundings, its own
+   and those of the rows that it is made of, says so.                                          */
+static int gvi__gram_pivot(const gvi_stepper *st, int S, gvi_real *A, int i, gvi_real *pivot)
+{
+    const int m = st->in.con.m, from = (int)st->in.con.first[i];
+    const gvi_real was = GVI_ABS(A[(i*m + i)*S]);
+    gvi_real rest = A[(i*m + i)*S], size = was;
+    for (int j = from; j < i; ++j) {
+        const gvi_real u = A[(j*m + i)*S], l = u*A[(j*m + j)*S];
+        A[(i*m + j)*S] = l;
+        rest -= l*u;
+    }
+    for (int j = from; j < i && GVI_ABS(rest) < was/16; ++j) {
+        const gvi_real l = A[(i*m + j)*S];
+        size += l*l*gvi__entry(st, S, j, A);
+    }
+    *pivot = rest;
+    return !(GVI_ABS(rest) > GVI__GRAIN*(gvi_real)m*GVI__EPS*size);
+}
+
 /* A := L D L' of G M^-1 G' in its envelope, L below the diagonal, 1/D on it and D L' above it; M(q)
-   is that of the stage values, one for one, or of the one point.  A pivot of 64 m roundings, its
-   own and those of the rows that it is made of, says that the row depends on those before it.  At
-   one point it, or the spare one of these, is then left out: 1/D and its L are 0, and so is its
+   is that of the stage values, one for one, or of the one point.  At one point a row that depends
+   on those before it, or the spare one of these, is left out: 1/D and its L are 0, and so is its
    multiplier; drops[a] is what the diagonal entry was, or 0 for a row that is kept.  At more points
    the same rows are left out, and the rest has to have full rank.                             */
 static gvi_status gvi__factor_rows(gvi_stepper *st, int S, int count, const gvi_real *G,
                                    gvi_real *A, gvi_real *drops)
 {
-    const struct gvi__private *in = &st->in;
-    const int n = st->n, m = in->con.m, full = gvi__full_mass(in);
-    const gvi_real *first = in->con.first, least = GVI__GRAIN*(gvi_real)m*GVI__EPS;
-    gvi_real *W = in->con.W;
-
-    gvi__zero((size_t)(n*S), W);
+    const int m = st->in.con.m;
+    gvi__zero((size_t)(st->n*S), st->in.con.W);
     gvi__zero((size_t)(count == 1 ? m : 0), drops);
     for (int i = 0; i < m; ++i) {
-        const int from = (int)first[i];
         int spare = i;
-        gvi_real *d = A + (i*m + i)*S;
-        // W = - M^-1 G_i'
-        for (int j = gvi__column(st, i, 0); j < n; j = gvi__column(st, i, j + 1)) {
-            const gvi_real *g = G + (i*n + j)*S, inverse = full ? 1 : in->mass.inverse[j];
-            for (int k = 0; k < count; ++k) W[j*S + k] = -(g[k]*inverse);
-        }
-        if (full) gvi__over_inertia(st, W, S, count);
-        for (int j = from; j <= i; ++j) {
-            gvi_real *u = A + (j*m + i)*S;
-            for (int k = 0; k < count; ++k) u[k] = 0;
-            for (int l = gvi__column(st, j, 0); l < n; l = gvi__column(st, j, l + 1))
-                gvi__subtract_at(S, count, G + (j*n + l)*S, W + l*S, u);
-            if (j == i) break;
-            int l = (int)first[j];
-            if (l < from) l = from;
-            for (; l < j; ++l) gvi__subtract_at(S, count, A + (j*m + l)*S, A + (l*m + i)*S, u);
-        }
-        if (full) gvi__zero((size_t)(n*S), W);
-        for (int j = gvi__column(st, i, 0); j < n; j = gvi__column(st, i, j + 1))
-            for (int k = 0; k < count; ++k) W[j*S + k] = 0;
+        gvi_real *d = A + (i*m + i)*S, rest;
+        gvi__gram_column(st, S, count, G, A, i);
         for (int k = 0; k < count; ++k) {
             const gvi_real was = GVI_ABS(d[k]);
-            gvi_real rest = d[k], size = was;
-            for (int j = from; j < i; ++j) {
-                const gvi_real u = A[(j*m + i)*S + k], l = u*A[(j*m + j)*S + k];
-                A[(i*m + j)*S + k] = l;
-                rest -= l*u;
-            }
-            for (int j = from; j < i && GVI_ABS(rest) < was/16; ++j) {
-                const gvi_real l = A[(i*m + j)*S + k];
-                size += l*l*gvi__entry(st, S, j, A + k);
-            }
-            const int depends = !(GVI_ABS(rest) > least*size);
+            const int depends = gvi__gram_pivot(st, S, A + k, i, &rest);
             if (!(was <= GVI__MAX) || !gvi__finite(rest))
                 return gvi__report_status(st, GVI_E_NON_FINITE);
             if (count == 1 && depends && !(drops[i] > 0)) spare = gvi__spare(st, S, i, was, A);
@@ -7129,12 +7155,6 @@ static gvi_real gvi__place_bow(const gvi_stepper *st, int i)
 }
 
 #ifndef GVI_NO_KICKS
-// what g missed, for G changed by `bend` along a move of terms of that size: is it no rounding?
-static int gvi__beyond_rounding(gvi_real missed, gvi_real bend, gvi_real size)
-{
-    return bend > GVI__SOLVED*GVI__EPS*size && missed*bend > GVI__GRAIN*GVI__EPS*size*size;
-}
-
 // path += h M^-1 |G|'|z|: how far each impulse alone would move the coordinates, at one point
 static void gvi__add_path(const gvi_stepper *st, gvi_real h, const gvi_real *z, gvi_real *push,
                           gvi_real *path)
@@ -7148,64 +7168,70 @@ static void gvi__add_path(const gvi_stepper *st, gvi_real h, const gvi_real *z, 
     for (int i = 0; i < n; ++i) path[i] += GVI_ABS(h*push[i]);
 }
 
+// the largest |g_a| in eps of its terms, the most so far, in `unit`; more than all where not finite
+static gvi_real gvi__drift_miss(const gvi_stepper *st, gvi_real t, const gvi_real *path,
+                                const gvi_real *G, gvi_real *unit)
+{
+    const gvi_real *g = st->in.con.g, *rate = g + st->in.con.m;
+    gvi_real size = 0;
+    for (int a = 0; a < st->in.con.m; ++a) {
+        unit[a] = gvi__larger(gvi__terms(st, 1, t, path, G, rate, a), unit[a]);
+        if (!gvi__finite(g[a])) return 2*GVI__MAX;
+        if (GVI_ABS(g[a]) > size*GVI__EPS*unit[a]) size = GVI_ABS(g[a])/(GVI__EPS*unit[a]);
+    }
+    return size;
+}
+
+// Q, step.q and step.p moved by the impulses G0' z
+static void gvi__drift_move(gvi_stepper *st, const gvi__origin *from, gvi_real h, gvi_real *path)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n;
+    gvi_real *z = in->con.rho, *d = in->con.W;
+    for (int a = 0; a < in->con.m; ++a) z[a] = -in->con.g[a]/h;
+    gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
+    gvi__add_path(st, h, z, d, path);
+    gvi__zero((size_t)n, d);
+    gvi__add_force(st, z, d);
+    gvi__add_scaled(n, 1, d, in->step.p, in->step.p);
+    gvi__over_mass(st, d, 1, 1);
+    gvi__add_scaled(n, h, d, in->step.q, in->step.q);
+    gvi__add_scaled(n, 1, in->step.q, from->q, in->work.Q);
+}
+
 /* RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, from a simplified Newton iteration.  A
-   row is rounding if it exceeds by a quarter what its last correction, and the change of G along
-   it, should have left; or by what q1 was added up from, q0 and the paths, which cancel where q1
-   is near 0.  An error four times the least so far is divergence.                             */
+   row is rounding by what q1 was added up from, q0 and the paths, which cancel where q1 is near 0.
+   An error four times the least so far is divergence.                                         */
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     if (!gvi__constrained(st)) return GVI_OK;
-    gvi_real before = 0, least = GVI__MAX, *Q = in->work.Q, *z = in->con.rho, *left = in->con.y,
-             *unit = z + m, *d = in->con.W, *g = in->con.g, *path = in->answer,
+    gvi_real before = 0, least = GVI__MAX, *unit = in->con.rho + m, *path = in->answer,
              *G = in->con.G1 + m*n;                  // G0 is before it
     const gvi_real t = from->t + (from->t_low + h);
     gvi_status status = gvi__constraints_at(st, from->t, from->q, NULL, NULL, in->con.drops);
     gvi__zero((size_t)n, in->step.p_low);
+    gvi__zero((size_t)m, unit);
     in->con.again = 0;
     for (int i = 0; i < n; ++i) path[i] = GVI_ABS(from->q[i]) + GVI_ABS(in->step.q[i]);
     for (int k = 0; ; ++k) {
-        gvi_real size = 0;
-        int finite = 1;
-        if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &t, Q, G);
+        if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &t, in->work.Q, G);
         in->con.made = k;
         if (status != GVI_OK) return status;
         if (k == 0 && !in->con.settled) (void)gvi__find_columns(st, 1, 1, G);
-        for (int a = 0; a < m; ++a) {
-            const gvi_real terms = gvi__terms(st, 1, t, path, G, g + m, a);
-            gvi_real change = -z[a], all = 0;
-            for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1)) {
-                change += h*(G[a*n + i]*d[i]);
-                all += GVI_ABS(h*(G[a*n + i]*d[i]));
-            }
-            const gvi_real missed = GVI_ABS(g[a] - left[a] - change/2), bend = GVI_ABS(change);
-            const int rounding = k > 0 && !gvi__beyond_rounding(missed/64, bend, all)
-                                 && GVI_ABS(g[a]) > (gvi_real)1.25*(GVI_ABS(left[a]) + bend);
-            if (k == 0 || terms > unit[a]) unit[a] = terms;
-            if (!rounding && GVI_ABS(g[a]) > size*GVI__EPS*unit[a])
-                size = GVI_ABS(g[a])/(GVI__EPS*unit[a]);
-            finite &= gvi__finite(g[a]);
-        }
-        if (finite && size <= GVI__GRAIN && k > 0 && !(size < before/2))
+        const gvi_real size = gvi__drift_miss(st, t, path, G, unit);
+        if (size <= GVI__GRAIN && k > 0 && !(size < before/2))
             return gvi__report_status(st, GVI_OK);
-        if (size < least) least = size;
+
         // far off already, it was on its way to infinity
-        if (!finite && !GVI__LOOKS(st) && before*GVI__EPS < (gvi_real)0.125)
+        if (!gvi__finite(size) && !GVI__LOOKS(st) && before*GVI__EPS < (gvi_real)0.125)
             return gvi__report_status(st, GVI_E_NON_FINITE);
-        if (!finite || k > 64 || size > 4*(least + 256))
+        least = gvi__smaller(size, least);
+        if (!gvi__finite(size) || k > 64 || size > 4*(least + 256))
             return gvi__report_status(st, GVI_E_CONVERGENCE);
         before = size;
-        for (int a = 0; a < m; ++a) z[a] = -g[a]/h;
-        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
-        gvi__add_path(st, h, z, d, path);
-        gvi__zero((size_t)n, d);
-        gvi__add_force(st, z, d);
-        gvi__add_scaled(n, 1, d, in->step.p, in->step.p);
-        gvi__over_mass(st, d, 1, 1);
-        gvi__add_scaled(n, h, d, in->step.q, in->step.q);
-        gvi__add_scaled(n, 1, in->step.q, from->q, Q);
-        for (int a = 0; a < m; ++a) z[a] = h*gvi__row_dot(st, G, a, d), left[a] = g[a] + z[a];
+        gvi__drift_move(st, from, h, path);
     }
 }
 #endif
@@ -7333,6 +7359,60 @@ static void gvi__keep_noise(gvi_stepper *st, int start)
     }
 }
 
+// does the end lie on the constraints, with the rank of the start?  start: of a motion
+static gvi_status gvi__check_end(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p,
+                                 gvi_real *v, int start)
+{
+    struct gvi__private *in = &st->in;
+    const int m = in->con.m;
+    gvi_real *drops = in->con.drops + m;
+    int redundant = 0, more = 0, row = 0;
+
+    if (start) GVI__LOOK(st, 1);
+    gvi_status status = gvi__constraints_at(st, t, q, p, v, drops);
+    if (start) GVI__LOOK(st, 0);
+    if (status != GVI_OK) return status;
+    gvi__keep_noise(st, start);
+    for (int a = 0; a < m; ++a) {
+        redundant |= drops[a] > 0;
+        more += (drops[a] > 0) - (in->con.drops[a] > 0);
+        if ((drops[a] > 0) != (in->con.drops[a] > 0)) row = a;
+    }
+
+    if (!start && more != 0) return gvi__report_row(st, GVI_E_SINGULAR, row, GVI_FAULT_NONE);
+    status = gvi__check_rank(st, start ? 0 : in->con.margin);
+    if ((start || redundant) && status == GVI_OK)
+        status = gvi__fulfilled(st, t, q, p, v, start);
+    return status;
+}
+
+/* step.p += G'z, y += z such that r = G v + dg/dt is 0 with the last G.  Returns r' A^-1 r, twice
+   the kinetic energy in it, and in *row the one that has most of it.                          */
+static gvi_real gvi__project_momentum(gvi_stepper *st, const gvi_real *v, gvi_real *push, int *row)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m;
+    gvi_real *r = in->con.g, *z = in->con.rho, size = 0;
+
+    for (int a = 0; a < m; ++a) r[a] = z[a] = -(r[m + a] + gvi__row_dot(st, in->con.G1, a, v));
+    gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
+    *row = 0;
+    for (int a = 0; a < m; ++a) {
+        size += r[a]*z[a];
+        if (r[a]*z[a] > r[*row]*z[*row]) *row = a;
+        in->con.y[a] += z[a];
+    }
+
+    gvi__zero((size_t)n, push);
+    gvi__add_force(st, z, push);
+    for (int i = 0; i < n; ++i) {
+        const gvi__two sum = gvi__add_low(in->step.p[i], in->step.p_low[i], push[i], 0);
+        in->step.p[i] = sum.hi;
+        in->step.p_low[i] = sum.lo;
+    }
+    return size;
+}
+
 /* step.p += G' y such that G v + dg/dt = 0 at the end: once, and once more for the rounding of
    that, or with Lagrangian terms until that is left.  At a start, what is farther off than
    rounding is refused; for v by the kinetic energy in it, r' A^-1 r/2, r = G v + dg/dt.      */
@@ -7341,9 +7421,9 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, passes = in->adds_p ? 40 : 2;
     const gvi_real t = from->t + (from->t_low + in->dt), far = GVI__HELD*GVI__EPS;
-    gvi_real *q = in->answer, *p = q + n, *v = p + n, *r = in->con.g, *z = in->con.rho,
-             *drops = in->con.drops + m, energy = 0, size = 0, before = GVI__MAX;
-    int redundant = 0, more = 0, row = 0, slow = 0;
+    gvi_real *q = in->answer, *p = q + n, *v = p + n, *r = in->con.g, *drops = in->con.drops + m,
+             energy = 0, size = 0, before = GVI__MAX;
+    int row = 0, slow = 0;
 
     for (int i = 0; i < n; ++i) {
         // rounded as the commit will: A v is to be 0 there
@@ -7353,48 +7433,18 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     }
 
     gvi__velocity_guess(st, v);
-    if (start) GVI__LOOK(st, 1);
-    gvi_status status = gvi__constraints_at(st, t, q, p, v, drops);
-    if (start) GVI__LOOK(st, 0);
-    if (status == GVI_OK) gvi__keep_noise(st, start);
-    for (int a = 0; a < m; ++a) {
-        redundant |= drops[a] > 0;
-        more += (drops[a] > 0) - (in->con.drops[a] > 0);
-        if ((drops[a] > 0) != (in->con.drops[a] > 0)) row = a;
-    }
-
-    if (!start && status == GVI_OK && more != 0)
-        status = gvi__report_row(st, GVI_E_SINGULAR, row, GVI_FAULT_NONE);
-
-    if (status == GVI_OK) status = gvi__check_rank(st, start ? 0 : in->con.margin);
-    if ((start || redundant) && status == GVI_OK)
-        status = gvi__fulfilled(st, t, q, p, v, start);
+    gvi_status status = gvi__check_end(st, t, q, p, v, start);
     if (status != GVI_OK) return status;
     gvi__zero((size_t)m, in->con.y);
     for (int pass = 0; pass < passes; ++pass) {
-        row = 0;
-        size = 0;
         for (int i = 0; i < n; ++i) p[i] = from->p[i] + (in->step.p[i] + in->step.p_low[i]);
         // slow: inertia is far from where v was
         status = slow ? gvi__constraints_at(st, t, q, p, v, drops) : gvi__velocity(st, t, q, p, v);
         if (status != GVI_OK) return status;
         energy = GVI_ABS(gvi__dot(n, p, v));
-        for (int a = 0; a < m; ++a) r[a] = z[a] = -(r[m + a] + gvi__row_dot(st, in->con.G1, a, v));
-        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
-        for (int a = 0; a < m; ++a) {
-            size += r[a]*z[a];
-            if (r[a]*z[a] > r[row]*z[row]) row = a;
-            in->con.y[a] += z[a];
-        }
+        size = gvi__project_momentum(st, v, p, &row);
         if (start && pass == 0 && !(size <= GVI__MAX && size <= far*far*energy))
             return gvi__report_row(st, GVI_E_CONSTRAINT, row, GVI_FAULT_NONE);
-        gvi__zero((size_t)n, p);
-        gvi__add_force(st, z, p);
-        for (int i = 0; i < n; ++i) {
-            const gvi__two sum = gvi__add_low(in->step.p[i], in->step.p_low[i], p[i], 0);
-            in->step.p[i] = sum.hi;
-            in->step.p_low[i] = sum.lo;
-        }
         if (pass > 0 && !(size < before)) break;
         slow = !(size < before/64);
         before = size;
@@ -7654,6 +7704,25 @@ GVI__OFFERED gvi_real gvi__constraint_mode(const gvi_stepper *st, int i, int k)
     return sum;
 }
 
+// z := G(q1)' y, the impulse at the end of the step at work
+GVI__OFFERED void gvi__end_impulse(const gvi_stepper *st, gvi_real *z)
+{
+    gvi__zero((size_t)st->n, z);
+    if (gvi__constrained(st)) gvi__add_force(st, st->in.con.y, z);
+}
+
+/* Mode s + 1 of what the forces of constraint do to coordinate i, `end` that impulse over h.
+   Lobatto's s + 1 points square P_s to 1/s, not to 1/(2s + 1).                                */
+GVI__OFFERED gvi_real gvi__high_constraint_mode(const gvi_stepper *st, int i, gvi_real end)
+{
+    const struct gvi__private *in = &st->in;
+    const int s = st->s;
+    gvi_real sum = gvi__mode_of_force(s + 1, 1)*end;
+    for (int e = 0; e < s; ++e)
+        sum += gvi__mode_of_force(s + 1, in->con.d[e])*(in->con.w[e]*in->con.force[i*in->R + e]);
+    return sum*(gvi_real)s/(gvi_real)(2*s + 1);
+}
+
 /* How far the rounding of g moves the coordinates: M^-1 G' A^-1 of what ends of steps were off by,
    or of eps of its known terms, once with one sign and once with signs that alternate, added.  To
    con.W; NULL where nothing holds.  All is that of the end, which was projected last.         */
@@ -7757,7 +7826,7 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
         { &con->g, 2*m, C }, { &con->G, i*m*n, C }, { &con->gram, i*m*m, C },
         { &con->d, on, R + C },
         { &con->w, on, s + 1 }, { &con->rho, m, R + C }, { &con->lu, i*(s + 1), s + 1 },
-        { &con->y, on, m },
+        { &con->y, on, 7*m },
         { &con->G1, 2*m, n }, { &con->gram1, m, m }, { &con->column, m, n + 1 },
         { &con->first, on, m }, { &con->drops, 2*on, m }, { &con->noise, on, m }
 
@@ -7822,16 +7891,109 @@ GVI__OFFERED int gvi__place_explain(gvi_stepper *st, gvi_status status, gvi_real
 
 /* ---- multipliers and projection, for the caller ---- */
 
-/* Newton's method for the lambda with which G v + dg/dt stays 0 along the motion, its matrix A.
-   d/de at (t + e, q + e v, p + e (F + G' lambda)) by differences of order 8, which are halved in
-   every iteration: truncation and rounding meet where the changes to lambda and from it are least;
-   one alone may be small by chance.                                                           */
+/* z := d/de (G v + dg/dt) at (t + e, q + e v, p + e force), e = 0, by a difference to both sides */
+GVI__COLD gvi_status gvi__row_rates(gvi_stepper *st, const gvi_real *v, const gvi_real *force,
+                                    gvi_real delta, gvi_real *z)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m;
+    gvi_real *q = in->answer, *p = q + n, *u = p + n, *G = in->con.G1 + m*n;
+
+    gvi__zero((size_t)m, z);
+    for (gvi_real e = delta; e >= -delta; e -= 2*delta) {
+        const gvi_real t = st->t + e;
+        gvi__add_scaled(n, e, v, st->q, q);
+        gvi__add_scaled(n, e, force, st->p, p);
+        gvi__copy((size_t)n, v, u);
+        gvi_status status = gvi__velocity(st, t, q, p, u);
+        if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &t, q, G);
+        if (status != GVI_OK) return status;
+        (void)gvi__find_columns(st, 1, 1, G);
+        for (int a = 0; a < m; ++a) z[a] += (in->con.g[m + a] + gvi__row_dot(st, G, a, u))/(2*e);
+    }
+    return GVI_OK;
+}
+
+// f'M^-1 f of f = F + G'z, which is left in in->answer
+GVI__COLD gvi_real gvi__force_norm(gvi_stepper *st, const gvi_real *F, const gvi_real *z)
+{
+    gvi_real *f = st->in.answer, *d = f + st->n;
+    gvi__copy((size_t)st->n, F, f);
+    gvi__add_force(st, z, f);
+    gvi__copy((size_t)st->n, f, d);
+    gvi__over_inertia(st, d, 1, 1);
+    return GVI_ABS(gvi__dot(st->n, f, d));
+}
+
+/* Romberg's scheme, column by column in con.y: -A^-1 of rates by differences of delta, delta/2 ..,
+   of orders 2 to 12.  z: in, that of the next delta, after k others; out, what that changes. */
+static void gvi__romberg(const gvi_stepper *st, int k, gvi_real *z)
+{
+    const int m = st->in.con.m, last = k < 6 ? k : 6;
+    for (int a = 0; a < m; ++a) {
+        gvi_real *T = st->in.con.y + m + a, next = z[a], power = 1;
+        const gvi_real was = last > 0 ? T[(last - 1)*m] : 0;
+        for (int j = 0; j < 6 && j <= k; ++j) {
+            const gvi_real old = T[j*m];
+            T[j*m] = z[a] = next;
+            power *= 4;
+            next += (next - old)/(power - 1);
+        }
+        z[a] -= was;
+    }
+}
+
+/* con.y += the change of lambda with which G v + dg/dt stays 0 along the motion; that rate is
+   linear in lambda, its matrix A.  Truncation and rounding of its difference meet where two changes
+   by halves of delta are least; one alone may be small by chance.  Beyond a domain: nearer.   */
+GVI__COLD gvi_status gvi__hold_rate(gvi_stepper *st, const gvi_real *v, const gvi_real *F,
+                                    gvi_real delta)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m;
+    gvi_real *force = in->con.W + n, *z = in->con.rho, *best = z + m, *before = best + m,
+             *sum = in->con.y, least = GVI__MAX, last = GVI__MAX;
+    const gvi_real rounding = GVI__SOLVED*GVI__EPS;
+    gvi_status status = GVI_OK;
+
+    (void)gvi__force_norm(st, F, sum);
+    gvi__copy((size_t)n, in->answer, force);
+    for (int levels = 0, k = 0; levels < GVI__DIG; ++levels, ++k, delta /= 2) {
+        status = gvi__row_rates(st, v, force, delta, z);
+        for (int a = 0; a < m; ++a) z[a] = -z[a];
+        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
+        gvi__romberg(st, k, z);
+        const gvi_real *now = sum + (k < 5 ? k + 1 : 6)*m, size = gvi__force_norm(st, in->zeros, z),
+                       whole = gvi__force_norm(st, force, now)
+                               + gvi__force_norm(st, in->zeros, now);
+        if (status != GVI_OK || !gvi__finite(size)) {
+            last = GVI__MAX;
+            k = -1;
+            continue;
+        }
+
+        const gvi_real both = gvi__larger(size, last);
+        if (both < least/16) {
+            gvi__copy((size_t)m, size > last ? before : now, best);
+            least = both;
+        }
+        if (both <= rounding*(rounding*whole)) break;
+        if (both > 64*least && least <= GVI__EPS*whole) break;
+        gvi__copy((size_t)m, now, before);
+        last = k > 0 ? size : GVI__MAX;
+    }
+
+    if (!(least < GVI__MAX))
+        return status != GVI_OK ? status : gvi__report_status(st, GVI_E_NON_FINITE);
+    gvi__add_scaled(m, 1, best, sum, sum);
+    return GVI_OK;
+}
+
+/* A time in which much changes, |p||q|/p'v, is the first delta times 8.  d2L/dv2 by differences is
+   not A to rounding, so what it leaves is found once more.                                    */
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
 {
-    static const gvi_real weight[] = {
-        (gvi_real)4/5, -(gvi_real)1/5, (gvi_real)4/105, -(gvi_real)1/280
-    };
-    gvi_status trial = GVI_OK, status = gvi__ready(st, st && st->in.started);
+    gvi_status status = gvi__ready(st, st && st->in.started);
     if (status != GVI_OK) return status;
     if (!lambda) return gvi__refuse_call(st, "lambda is NULL");
     if (!st->in.con.bits) {
@@ -7842,9 +8004,8 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
 
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
-    gvi_real *q = in->answer, *p = q + n, *u = p + n, *v = in->con.W, *force = v + n;
-    gvi_real *z = in->con.rho, *rate = z + m, *sum = in->con.y, *best = in->con.g + 2*m;
-    gvi_real *F = in->step.p, least = GVI__MAX, last = GVI__MAX, size = 0, delta = 1;
+    gvi_real *u = in->answer + 2*n, *v = in->con.W, *F = in->step.p, size = 0;
+    const gvi_real *y = in->con.y;
     gvi_points at = gvi__one_point(st, &st->t, st->q);
     gvi__velocity_guess(st, u);
     if (m > 0) status = gvi__constraints_at(st, st->t, st->q, st->p, u, in->con.drops + m);
@@ -7853,54 +8014,16 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     at.v = v;
     if (status == GVI_OK) status = gvi__evaluate(st, &at, 0, 1);
     gvi__copy((size_t)n, at.f, F);
-    gvi__zero((size_t)m, sum);
+    gvi__zero((size_t)m, in->con.y);
 
-    // a time in which much changes: |p||q|/p'v
     for (int i = 0; i < n; ++i) size += GVI_ABS(st->p[i]*st->q[i]);
-    if (size > 0) delta = size/GVI_ABS(gvi__dot(n, st->p, v));
-    if (!gvi__finite(delta)) delta = 1;
-    for (int k = 0; k < GVI__DIG && m > 0 && status == GVI_OK; ++k) {
-        delta /= k == 0 ? 8 : 2;
-        gvi__zero((size_t)n, q);
-        gvi__add_force(st, sum, q);                // of all of it: what rounding took is seen
-        gvi__add_scaled(n, 1, q, F, force);
-        gvi__copy((size_t)n, q, p);
-        gvi__over_inertia(st, p, 1, 1);
-        const gvi_real whole = GVI_ABS(gvi__dot(n, q, p));
-        gvi__zero((size_t)m, rate);
-        trial = GVI_OK;
-        for (int j = 0; j < 8 && trial == GVI_OK; ++j) {
-            const gvi_real sign = j % 2 ? -1 : 1, e = sign*delta*(gvi_real)(j/2 + 1), t = st->t + e;
-            gvi__add_scaled(n, e, v, st->q, q);
-            gvi__add_scaled(n, e, force, st->p, p);
-            gvi__copy((size_t)n, v, u);
-            trial = gvi__velocity(st, t, q, p, u);
-            if (trial == GVI_OK)
-                trial = gvi__evaluate_constraints(st, 1, 1, &t, q, in->con.G1 + m*n);
-            if (trial == GVI_OK) (void)gvi__find_columns(st, 1, 1, in->con.G1 + m*n);
-            for (int a = 0; a < m; ++a)
-                rate[a] += (in->con.g[m + a] + gvi__row_dot(st, in->con.G1 + m*n, a, u))
-                           *(sign*weight[j/2]/delta);
-        }
-        for (int a = 0; a < m; ++a) z[a] = -rate[a];
-        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
-        size = -gvi__dot(m, rate, z);
-        if (trial != GVI_OK || !gvi__finite(size)) continue;      // beyond a domain: nearer
-        const gvi_real both = gvi__larger(size, last);
-        last = size;
-        if (!(both < 16*least) && both <= GVI__EPS*whole) break;
-        if (!gvi__nonzero(both)) break;            // e is rounded away
-        if (both < least/256 || !(least < GVI__MAX)) least = both, gvi__copy((size_t)m, sum, best);
-        gvi__add_scaled(m, 1, z, sum, sum);
-    }
-
-    if (!(least < GVI__MAX)) gvi__copy((size_t)m, sum, best);
-    if (status == GVI_OK && m > 0 && !(last < GVI__MAX))
-        status = trial != GVI_OK ? trial : gvi__report_status(st, GVI_E_NON_FINITE);
+    const gvi_real time = size > 0 ? size/GVI_ABS(gvi__dot(n, st->p, v)) : 1;
+    for (int pass = 0; m > 0 && pass < 1 + (in->adds_p > 0) && status == GVI_OK; ++pass)
+        status = gvi__hold_rate(st, v, F, gvi__finite(time) ? time/8 : 1);
     if (status != GVI_OK) return gvi__done(st, status);
     for (int e = 0; e < in->desc.effect_count; ++e)
         for (int a = 0; a < in->desc.effects[e].rows; ++a)
-            *lambda++ = gvi__constraints_on(st) >> e & 1u ? *best++ : 0;
+            *lambda++ = gvi__constraints_on(st) >> e & 1u ? *y++ : 0;
     return gvi__done(st, GVI_OK);
 }
 
@@ -7969,9 +8092,77 @@ static gvi_real gvi__arrived(const gvi_stepper *st, gvi_real q, gvi_real e)
     return GVI_ABS(q + e) <= rounding*GVI_ABS(q) ? 0 : q + e;
 }
 
-/* The iteration q' = q + e, e = M^-1 G'z with g + G(e_new - e) = 0: (G M^-1 G') z = G e - g at the
-   last q'.  So e is normal to the constraints where it ends, and e'M e is z'(G e - g).  What moves
-   along the constraints is damped, by `share`, where changes grow; g is taken to 0 in any case. */
+/* One iteration q' = q + e, e = M^-1 G'z with g + G(e_new - e) = 0: (G M^-1 G') z = G e - g at the
+   last q'.  So e is normal to the constraints where it ends, and *way = e'M e is z'(G e - g).
+   What moves along the constraints is damped, by `share`; g is taken to 0 in any case.  f: M e.
+   Returns the work of the forces along the change of e, which has one unit, and is not 0 where M
+   alone changes; *size: what that is made of.                                                 */
+static gvi_real gvi__approach(gvi_stepper *st, const gvi_real *q, gvi_real share, gvi_real *way,
+                              gvi_real *size)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m;
+    gvi_real *e = in->step.q, *f = in->step.p, *next = in->answer, *d = next + n, *push = in->point,
+             *path = push + 2*n, *z = in->con.rho, *r = z + m, *back = r + m, change = 0;
+
+    for (int a = 0; a < m; ++a) {
+        back[a] = -in->con.g[a];
+        z[a] = r[a] = gvi__row_dot(st, in->con.G1, a, e) - in->con.g[a];
+    }
+    gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
+    gvi__solve_constraints(st, in->con.gram1, 1, 1, back, 1);
+    *way = gvi__dot(m, r, z);
+    for (int a = 0; a < m; ++a) z[a] = share*z[a] + (1 - share)*back[a];
+
+    gvi__zero((size_t)n, push);
+    gvi__add_force(st, z, push);
+    gvi__copy((size_t)n, push, d);
+    gvi__over_inertia(st, d, 1, 1);
+    *size = 0;
+    for (int i = 0; i < n; ++i) {
+        change += (GVI_ABS(push[i]) + GVI_ABS(f[i]))*GVI_ABS(d[i] - share*e[i]);
+        *size += (GVI_ABS(push[i]) + GVI_ABS(f[i]))*(GVI_ABS(d[i]) + GVI_ABS(e[i]));
+        f[i] = push[i] + (1 - share)*f[i];
+        e[i] = d[i] + (1 - share)*e[i];
+        next[i] = gvi__arrived(st, q[i], e[i]);
+        path[i] = GVI_ABS(q[i]) + GVI_ABS(e[i]);
+    }
+    return change;
+}
+
+// to the q' on the constraints, in->answer: iterations until their change is rounding, at u
+static gvi_status gvi__find_nearest(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *u,
+                                    gvi_real *way)
+{
+    struct gvi__private *in = &st->in;
+    const gvi_real *next = in->answer, *path = in->point + 2*st->n, *z = in->con.rho;
+    gvi_real *drops = in->con.drops + in->con.m, change = GVI__MAX, before = 0, size = 0, share = 1;
+    // what a d2L/dv2 by differences leaves of a change
+    const gvi_real root = GVI_SQRT(GVI__EPS),
+                   least = in->adds_p ? 16*root : GVI_SQRT(GVI__EPS*root);
+
+    for (int k = 0; ; ++k) {
+        gvi_status status = gvi__constraints_at(st, t, next, NULL, u, drops);
+        gvi_real noise = 0;                        // the work that the rounding of g does
+        for (int a = 0; a < in->con.m && k > 0 && status == GVI_OK; ++a)
+            noise += GVI__GRAIN*GVI_ABS(z[a])
+                     *(GVI_ABS(in->con.g[a])
+                       + GVI__EPS*gvi__terms(st, 1, t, path, in->con.G1, in->con.g + in->con.m, a));
+
+        if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK
+            && change <= least*size + noise) {
+            if (gvi__fulfilled(st, t, next, NULL, u, 1) == GVI_OK) return GVI_OK;
+            status = gvi__constraints_at(st, t, next, NULL, u, drops);
+        }
+        if (k > 1000 && status == GVI_OK) status = GVI_E_CONVERGENCE;
+        if (status != GVI_OK) return status;
+
+        before = change;
+        change = gvi__approach(st, q, share, way, &size);
+        if (change > before && share > (gvi_real)0.02) share /= 2;
+    }
+}
+
 GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v,
                                gvi_real *moved)
 {
@@ -7984,64 +8175,16 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
 
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
-    gvi_real *e = in->step.q, *f = in->step.p, *next = in->answer, *d = next + n, *u = d + n,
-             *push = in->point, *path = push + 2*n, *z = in->con.rho, *r = z + m, *back = r + m,
-             *drops = in->con.drops + m, change = GVI__MAX, before = 0, size = 0, share = 1;
-    // what a d2L/dv2 by differences leaves of a change
-    const gvi_real root = GVI_SQRT(GVI__EPS),
-                   least = in->adds_p ? 16*root : GVI_SQRT(GVI__EPS*root);
+    gvi_real *e = in->step.q, *u = in->answer + 2*n, *drops = in->con.drops + m;
     gvi__zero((size_t)n, e);
-    gvi__zero((size_t)n, f);
-    gvi__copy((size_t)n, q, next);
+    gvi__zero((size_t)n, in->step.p);
+    gvi__copy((size_t)n, q, in->answer);
     gvi__copy((size_t)n, v, u);
     gvi__forget_columns(st);
     if (gvi__constraints_on(st) & ~in->con.checked) status = gvi__check_derivatives(st, t, q);
     if (status != GVI_OK) return status;
     GVI__LOOK(st, 1);
-    for (int k = 0; ; ++k) {
-        status = gvi__constraints_at(st, t, next, NULL, u, drops);
-        gvi_real noise = 0;                        // the work that the rounding of g does
-        for (int a = 0; a < m && k > 0 && status == GVI_OK; ++a)
-            noise += GVI__GRAIN*GVI_ABS(z[a])
-                     *(GVI_ABS(in->con.g[a])
-                       + GVI__EPS*gvi__terms(st, 1, t, path, in->con.G1, in->con.g + m, a));
-
-        if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK
-            && change <= least*size + noise) {
-            if (gvi__fulfilled(st, t, next, NULL, u, 1) == GVI_OK) break;
-            status = gvi__constraints_at(st, t, next, NULL, u, drops);
-        }
-        if (k > 1000 && status == GVI_OK) status = GVI_E_CONVERGENCE;
-        if (status != GVI_OK) break;
-
-        for (int a = 0; a < m; ++a) {
-            back[a] = -in->con.g[a];
-            z[a] = r[a] = gvi__row_dot(st, in->con.G1, a, e) - in->con.g[a];
-        }
-        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
-        gvi__solve_constraints(st, in->con.gram1, 1, 1, back, 1);
-        far[0] = gvi__dot(m, r, z);
-        for (int a = 0; a < m; ++a) z[a] = share*z[a] + (1 - share)*back[a];
-
-        gvi__zero((size_t)n, push);
-        gvi__add_force(st, z, push);
-        gvi__copy((size_t)n, push, d);
-        gvi__over_inertia(st, d, 1, 1);
-
-        before = change;
-        change = size = 0;
-        for (int i = 0; i < n; ++i) {
-            // by the force's work, which has one unit, and is not 0 where M alone changes
-            change += (GVI_ABS(push[i]) + GVI_ABS(f[i]))*GVI_ABS(d[i] - share*e[i]);
-            size += (GVI_ABS(push[i]) + GVI_ABS(f[i]))*(GVI_ABS(d[i]) + GVI_ABS(e[i]));
-            f[i] = push[i] + (1 - share)*f[i];
-            e[i] = d[i] + (1 - share)*e[i];
-            next[i] = gvi__arrived(st, q[i], e[i]);
-            path[i] = GVI_ABS(q[i]) + GVI_ABS(e[i]);
-        }
-        if (change > before && share > (gvi_real)0.02) share /= 2;
-    }
-
+    status = gvi__find_nearest(st, t, q, u, far);
     GVI__LOOK(st, 0);
     if (status == GVI_OK) far[1] = gvi__project_velocity(st, u);
     // rows that are left out had no part in this
@@ -8155,6 +8298,8 @@ GVI__COLD void gvi__rolling_layout(struct gvi__private *in, gvi__arena *a)
 #else
 #define gvi__constrained(st) 0
 #define gvi__constraint_mode(st, i, k) ((void)(k), (gvi_real)0)
+#define gvi__high_constraint_mode(st, i, end) ((void)(end), (gvi_real)0)
+#define gvi__end_impulse(st, z) ((void)(z))
 #define gvi__constraint_shift(st) NULL
 #define gvi__place_explain(st, status, v, start) 0
 #endif /* GVI_NO_CONSTRAINTS */
@@ -8564,29 +8709,34 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
 
 GVI__COLD const char *gvi__wrong_in_resolution(const gvi_desc *d, int order)
 {
-    if (d->degree < 3) return "resolution: degree is below 3";
     if (order < 2*d->degree) return "resolution: the order of the rule is below twice the degree";
     return NULL;
 }
 
-// what the point j gives to the modes K, K - 1 ..: see gvi__resolution
+// what the point j gives to the modes K, K - 1 ..: see gvi__resolution, or gvi__coarse_resolution
 GVI__COLD void gvi__dial_tables(gvi_stepper *st)
 {
     struct gvi__private *in = &st->in;
     const int forces = in->stages == 1, s = st->s, R = in->R;
     const gvi_real *modes = forces ? in->table.Phi : in->table.phi;       // not always both
     in->dial.top = s - !(forces && !gvi__of_kind(in, GVI_CONSTRAINT));
+    if (s < 3) in->dial.top = s + 1;
     for (int m = 0; m < 6; ++m)
         for (int j = 0; j < st->r; ++j) {
             const int k = in->dial.top - m;
             gvi_real *to = in->dial.high + 6*j + m;
             *to = 0;
-            if (k > 0 && k < s) *to = in->table.inv_gamma[k]*modes[k*R + j]*in->table.b[j];
-            if (k < s) continue;
-            gvi_real P = 1, before = 1;
-            for (int p = 0; p < s - 1; ++p) gvi__legendre(p, 1 - 2*in->table.c[j], &P, &before);
-            *to = P*in->table.b[j]/2;
+            if (k > 0 && k < s && s > 2)
+                *to = in->table.inv_gamma[k]*modes[k*R + j]*in->table.b[j];
+            if (k >= s) *to = gvi__mode_of_force(k, in->table.c[j])*in->table.b[j];
         }
+    if (s > 2) return;
+
+    gvi_real seen = 0;                            // of P_s, as the rule squares it: none by Gauss
+    for (int j = 0; j < st->r; ++j)
+        seen += in->dial.high[6*j]*gvi__mode_of_force(s + 1, in->table.c[j])*(gvi_real)(8*s + 4);
+    for (int j = 0; j < st->r; ++j)
+        in->dial.high[6*j] = seen > GVI__POOR ? in->dial.high[6*j]/seen : 0;
 }
 
 static gvi_real gvi__power(gvi_real x, int k)
@@ -8754,9 +8904,65 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
     return worst;
 }
 
+/* Mode s + 1 of coordinate i's velocity, times its inertia; v: (v0 + v1)/2, end: impulse there.
+   Explicit steps: v is a parabola, whose y_2 is what v is off dq/h, over 3, with the step's error
+   in q.  Else by forces: see gvi__coarse_resolution.                                          */
+static gvi_real gvi__coarse_mode(const gvi_stepper *st, int i, gvi_real v, gvi_real end)
+{
+    const struct gvi__private *in = &st->in;
+    const gvi_real *F = in->work.F + i*in->R, *a = in->dial.high, h = GVI_ABS(in->sized.h);
+    gvi_real high = 0, low = 0, unseen = 0, was;
+    if (in->stages == 0) return gvi__place_inertia(st, i)*(v - in->step.q[i]/in->sized.h)/3;
+
+    for (int j = 0; j < st->r; ++j, a += 6) {
+        high += a[0]*F[j];
+        low += a[1]*F[j];
+    }
+    in->dial.now[i] = h*low;
+    if (!gvi__nonzero(in->dial.high[0])) unseen = gvi__mode_since(st, i, &was);
+    if (gvi__constrained(st)) high += gvi__high_constraint_mode(st, i, end/h);
+    return GVI_ABS(h*high) + unseen;
+}
+
+/* Degrees 1 and 2, whose curves have too few modes: by mode s of the forces, F and those of
+   constraint, which Lobatto's points have and the curve lacks.  It makes y_(s+1) of the velocity:
+
+     10 |y_(s+1)|/(|p0| + |p1|)         all coordinates together, in the norm of M^-1
+
+   Where the rule does not see that mode of F, as Gauss's with r = s, the change of y_s since the
+   step before tells it, as in gvi__resolution.  From rest there is nothing to be relative to: 0. */
+static gvi_real gvi__coarse_resolution(const gvi_stepper *st)
+{
+    const struct gvi__private *in = &st->in;
+    const int n = st->n, stride = in->stages > 0 ? in->R : 1;
+    const gvi_real *shift = gvi__constraint_shift(st), h = GVI_ABS(in->sized.h);
+    gvi_real *end = in->answer, *v = end + n, began = 0, size = 0, far = 0, high = 0, floor = 0;
+
+    gvi__end_impulse(st, end);
+    gvi__add_scaled(n, (gvi_real)0.5, in->step.p, in->state.p, v);
+    if (in->stages == 0) gvi__over_mass(st, v, 1, 1);
+    for (int i = 0; i < n; ++i) {
+        const gvi_real m = gvi__place_inertia(st, i), p = in->state.p[i], q = in->state.q[i],
+                       all = GVI_ABS(p) + GVI_ABS(p + in->step.p[i]),
+                       y = gvi__coarse_mode(st, i, v[i], end[i]),
+                       rounding = GVI__EPS*h*GVI_ABS(in->work.F[i*stride])
+                                  + (shift ? m*shift[i]/h : 0);
+        began += p*p/m;
+        size += all*all/m;
+        far += q*q*m;
+        high += y*y/m;
+        floor += rounding*rounding/m;
+    }
+
+    const gvi_real whole = GVI_SQRT(size) + GVI_SQRT(far)/h;
+    if (size*GVI__RESTS*GVI__RESTS < whole*whole) floor += GVI__EPS*GVI__EPS*whole*whole;
+    if (!(began > 0) || high <= GVI__SOLVED*GVI__SOLVED*floor) return 0;
+    return 10*GVI_SQRT(high/size);
+}
+
 static gvi_status gvi__dial_accept(gvi_stepper *st)
 {
-    st->resolution = gvi__resolution(st);
+    st->resolution = st->s < 3 ? gvi__coarse_resolution(st) : gvi__resolution(st);
     if (st->resolution > st->in.desc.resolution)
         return gvi__report_status(st, GVI_E_RESOLUTION);
     st->counters.worst_resolution = gvi__larger(st->resolution, st->counters.worst_resolution);
