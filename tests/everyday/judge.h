@@ -7,7 +7,8 @@
    8 eps (4 + sqrt(N)) growth (1 + origin/size); by the root of the ratio of two masses more, since a light coordinate settles
    to the roundings of the heaviest, |q| sqrt(m).
    Ends by other equations (other coordinates, degrees, rules): each may be off by what half of its h changes.
-   By the dial: 10 times the worst st.resolution for each step, as the header says.
+   By the dial: 10 times the worst st.resolution for each step, as the header says, and once 190 times, the worst
+   that `make hard-dial` knows of one step.
    Cost.  At most 1.5 times the points of the best fixed point that is pinned, or one iteration a step more, as a coordinate that
    is exactly 0 saves.  Where Newton's method takes over, its matrices counted as points, 1.2 times the best that is pinned
    and the attempt that failed.  By the dial, at most twice the steps of the best, and three.           */
@@ -446,7 +447,7 @@ static outcome reference_of(const scene *s)
 static double allowed_by_dial(const written *w, const outcome *a)
 {
     const double time = (double)EPS*fabs((double)(w->date/w->time))/tau_of(now.s);   /* the end is rounded to t's places */
-    return 10*a->resolution*(double)a->steps*now.growth*now.size*(1 + shift_of(w)) + roundings(w, a->steps + 512) + 4*time*now.size;
+    return (10*(double)a->steps + 190)*a->resolution*now.growth*now.size*(1 + shift_of(w)) + roundings(w, a->steps + 512) + 4*time*now.size;
 }
 
 /* One run by the dial against the reference and the steps of the best that is pinned; how far it is off, or -1 */
