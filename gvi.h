@@ -8596,12 +8596,13 @@ static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real 
 }
 
 /* Mode K of coordinate i by the change of mode K - 1 since the step before; *was: its size there,
-   in steps of this length.                                                                    */
-static gvi_real gvi__mode_since(const gvi_stepper *st, int i, gvi_real *was)
+   in steps of this length.  Without a step before, for K = 3, as the modes below it fall.     */
+static gvi_real gvi__mode_since(const gvi_stepper *st, int i, const gvi_real *y, gvi_real *was)
 {
     const struct gvi__dial *dial = &st->in.dial;
     const gvi_real h = st->in.sized.h;
-    if (!gvi__nonzero(dial->span)) return 0;
+    if (!gvi__nonzero(dial->span))
+        return dial->top == 3 && y[1] > 0 ? y[1]*(y[1]/(y[1] + y[2]))/4 : 0;
 
     const gvi_real before = dial->before[i]*gvi__power(h/dial->span, dial->top - 1),
                    change = (dial->now[i] - before)*(2*h/(h + dial->span));
@@ -8634,7 +8635,7 @@ static gvi_real gvi__missed(const gvi_stepper *st, int i, const gvi_real *y, gvi
     gvi_real high = y[0] + y[1], low = y[2] + y[3], since = 0, was = 0;
 
     *all = ends + high + low;
-    if (top < 5) since = gvi__mode_since(st, i, &was);
+    if (top < 5) since = gvi__mode_since(st, i, y, &was);
     if (top < 4) {
         high = y[0] + since;                                     // alone, a mode may pass 0
         low = top == 3 ? y[1] + y[2] : turn;
