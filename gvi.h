@@ -824,6 +824,8 @@ typedef struct gvi_desc {
                                           it is refused: GVI_E_RESOLUTION.  Needs degree 3 or more,
                                           a rule of order 2 degree or more, and steps that are not
                                           explicit.  0: none is refused, nothing is measured    */
+    int               tries;           /* lengths that a call of gvi_advance tries, to 64; few for
+                                          a loop with a deadline.  0: 64         */
 } gvi_desc;
 
 #define GVI_FAULT_NONE (-1)            /* no effect, coordinate or point        */
@@ -1181,9 +1183,9 @@ GVI_DEF gvi_status gvi_steps(gvi_stepper *st, gvi_real h, int count);
 
    The length is st.next, found at first from short steps, kept while the accuracy stays within
    a band; what is left is divided so that the last step is no shorter than half of it.  A step
-   that fails is tried again, shorter, 64 times at most or until t would not move: then its status
-   is returned.  With a clock the length is in tau, and the step may pass t_end: gvi_state_at has
-   the state there.                                                                            */
+   that fails is tried again, shorter, desc.tries times at most or until t would not move: then its
+   status is returned, and the next call begins with the length that would have been next.  With a
+   clock the length is in tau, and the step may pass t_end: gvi_state_at has the state there.  */
 #ifndef GVI_NO_DIAL
 GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end);
 #endif
@@ -2920,6 +2922,7 @@ GVI__COLD const char *gvi__wrong_in_desc(const gvi_desc *d)
     if (d->effect_count && !d->effects) return "effect_count is given, effects is NULL";
     if (d->effects && !d->effect_count) return "effects is given, effect_count is 0";
     if (!gvi__within(d->max_iterations, 1000000)) return "max_iterations is not 0 to 1,000,000";
+    if (!gvi__within(d->tries, 64)) return "tries is not 0 to 64";
     if (!gvi__within(d->iterations, 1000000)) return "iterations is not 0 to 1,000,000";
     if ((unsigned)d->formulation > GVI_NEWTON) return "formulation is not in its enum";
     if ((unsigned)d->mass.kind > GVI_MASS_NONE) return "mass.kind is not in its enum";
@@ -2973,6 +2976,7 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *in, const gvi_desc *desc, g
     if (d->degree == 0) d->degree = d->rule.kind == GVI_KICKS ? 1 : 8;
     if (d->rule.points == 0) d->rule.points = d->degree + (d->rule.kind == GVI_LOBATTO);
     if (d->max_iterations == 0) d->max_iterations = 60;
+    if (d->tries == 0) d->tries = 64;
 
     for (int e = 0; e < d->effect_count; ++e) {
         const gvi_kind kind = d->effects[e].kind;
@@ -8799,19 +8803,19 @@ static gvi_real gvi__rungs_down(gvi_stepper *st, gvi_status status, gvi_real at,
     return dial->put_off ? -3 : -GVI__FALL;
 }
 
-// st.next after a step of length h; one that an end has shortened says nothing of longer ones
+// st.next after a step of length h, which an end may have made shorter than st.next was
 static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
 {
-    if (status == GVI_OK && h < st->next) return;
-
     const gvi_real seen = gvi__larger(st->resolution, GVI__MIN), at = gvi__rungs(h);
     const gvi_real most = gvi__rungs(st->in.desc.resolution) - gvi__rungs(seen);
     // the modes end at rounding: above GVI__DEEP the resolution falls no faster than there
     const int degree = st->s < GVI__DEEP ? st->s : GVI__DEEP;
     const gvi_real room = most/(gvi_real)(2*degree - 1) - GVI__MARGIN,
                    up = status == GVI_OK ? gvi__rungs_up(st, at, room)
-                                         : gvi__rungs_down(st, status, at, room);
-    if (gvi__nonzero(up)) st->next = gvi__length(at + up);
+                                         : gvi__rungs_down(st, status, at, room),
+                   // half of what was left to an end, doubled, is to be all of it
+                   next = gvi__length(up + (up > 0 && h < st->next ? -GVI_FLOOR(-at) : at));
+    if (up < 0 || next > st->next) st->next = next;
 }
 
 /* A first length: 1/16 of the time in which the forces would make the kinetic energy that there is;
@@ -8869,7 +8873,7 @@ GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
             }
             return status;
         }
-        if (status == GVI_E_ARGUMENT || status == GVI_E_SINGULAR || tries == 64
+        if (status == GVI_E_ARGUMENT || status == GVI_E_SINGULAR || tries == st->in.desc.tries
             || !gvi__nonzero(st->t + st->next - st->t)) return status;
     }
 }
