@@ -824,8 +824,7 @@ typedef struct gvi_desc {
                                           it is refused: GVI_E_RESOLUTION.  Needs degree 3 or more,
                                           a rule of order 2 degree or more, and steps that are not
                                           explicit.  0: none is refused, nothing is measured    */
-    int               tries;           /* lengths that a call of gvi_advance tries, to 64; few for
-                                          a loop with a deadline.  0: 64         */
+    int               tries;           /* lengths a call of gvi_advance tries.  0: 64, the most */
 } gvi_desc;
 
 #define GVI_FAULT_NONE (-1)            /* no effect, coordinate or point        */
@@ -1181,11 +1180,10 @@ GVI_DEF gvi_status gvi_steps(gvi_stepper *st, gvi_real h, int count);
 
      while (st.status == GVI_OK && st.t < t_end) gvi_advance(&st, t_end);
 
-   The length is st.next, found at first from short steps, kept while the accuracy stays within
-   a band; what is left is divided so that the last step is no shorter than half of it.  A step
-   that fails is tried again, shorter, desc.tries times at most or until t would not move: then its
-   status is returned, and the next call begins with the length that would have been next.  With a
-   clock the length is in tau, and the step may pass t_end: gvi_state_at has the state there.  */
+   The length is st.next, kept while the accuracy stays within a band; what is left is divided so
+   that the last step is no shorter than half of it.  A step that fails is tried again, shorter,
+   desc.tries times at most or until t would not move: then its status is returned, and the next
+   call goes on with a shorter one.  With a clock h is in tau, and may pass t_end: gvi_state_at. */
 #ifndef GVI_NO_DIAL
 GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end);
 #endif
@@ -8535,8 +8533,7 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
 #ifndef GVI_NO_DIAL
 /* -------------------------------------------------------------- THE DIAL
 
-   desc.resolution: how accurate each step has to be.  A step is measured by the modes of its curve,
-   and gvi_advance chooses h so that the measure stays within the limit.                      */
+   A step is measured by the modes of its curve, and gvi_advance chooses h by that.            */
 
 GVI__COLD const char *gvi__wrong_in_resolution(const gvi_desc *d, int order)
 {
@@ -8717,8 +8714,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
     const gvi_real whole = fastest + farthest/h, *shift = gvi__constraint_shift(st);
     if (!(whole > 0)) return 0;
     for (int i = 0; i < st->n; ++i) {
-        const gvi_real own = mass[i]*(v + GVI_ABS(in->state.q[i])/h),
-                       around = gvi__smaller(own, whole);
+        const gvi_real around = gvi__smaller(mass[i]*(v + GVI_ABS(in->state.q[i])/h), whole);
         const int rests = size[i] < around/GVI__RESTS;
 
         // what rounding makes of it: of g, of forces that cancel, of those of constraint anywhere
@@ -8761,9 +8757,8 @@ static gvi_real gvi__length(gvi_real k)
 
 /* How many rungs up, after a step that succeeded.  `room`: up to where the resolution, of order
    2s - 1 in h, reaches its limit, less a margin.  What was lost of it since the step before will be
-   lost again; two octaves are too many to be a measure.  From 0 to GVI__BAND rungs h stays as it
-   is.  Work over time is iterations/h: from GVI__MANY of them on h does not grow, from 5/3 of that
-   on it shrinks a little.                                                                     */
+   lost again; two octaves are no measure.  From 0 to GVI__BAND rungs h stays.  Work over time is
+   iterations/h: from GVI__MANY of them on h does not grow, from 5/3 of that on it shrinks.    */
 static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 {
     struct gvi__dial *dial = &st->in.dial;
