@@ -8597,13 +8597,13 @@ static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real 
 }
 
 /* Mode K of coordinate i by the change of mode K - 1 since the step before; *was: its size there,
-   in steps of this length.  Without a step before, for K = 3, as the modes below it fall.     */
+   in steps of this length.  Without a step before, for K = s = 3, as the modes below it fall. */
 static gvi_real gvi__mode_since(const gvi_stepper *st, int i, const gvi_real *y, gvi_real *was)
 {
     const struct gvi__dial *dial = &st->in.dial;
     const gvi_real h = st->in.sized.h;
     if (!gvi__nonzero(dial->span))
-        return dial->top == 3 && y[1] > 0 ? y[1]*(y[1]/(y[1] + y[2]))/4 : 0;
+        return st->s == 3 && dial->top == 3 && y[1] > 0 ? y[1]*(y[1]/(y[1] + y[2]))/4 : 0;
 
     const gvi_real before = dial->before[i]*gvi__power(h/dial->span, dial->top - 1),
                    change = (dial->now[i] - before)*(2*h/(h + dial->span));

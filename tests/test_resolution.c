@@ -485,6 +485,22 @@ TEST(a_fall_from_rest_is_found_exact)
     }
 }
 
+/* A force that sets in like t: its modes are in the same proportion at any h, and every step is exact */
+GVI_EACH(ramp, 1, f) { x->f[0] += x->t[0]; }
+
+TEST(a_ramp_from_rest_is_found_exact)
+{
+    static const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .points = ramp }, { .kind = GVI_FORCE, .points = ramp } };
+    for (int k = 0; k < 20; ++k) {
+        const real limit = KIND == 1 ? R(1e-3)/(real)(1 + k/4) : pow(R(10.0), -(real)(3 + 2*(k/4)));
+        const gvi_desc desc = { .n = 1, .degree = k/2%2 ? 8 : 4, .effects = effects + k%2, .effect_count = 1, .resolution = limit };
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ 0 }, (const real[]){ 0 });
+        for (int steps = 0; st.t < 1 && steps < 32; ++steps) assert_ok(gvi_advance(&st, 1));
+        assert_close(st.q[0], R(1.0)/6, 16*EPS);
+        assert_int_equal(st.counters.failures, 0);
+    }
+}
+
 #if GVI__KIND == 2
 #define main lesson_25
 #include "25_bricard.c"
