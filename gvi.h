@@ -830,6 +830,7 @@ typedef struct gvi_desc {
                                           less than eps is eps.  A step whose st.resolution is above
                                           it is refused: GVI_E_RESOLUTION.  Needs a rule of order 2
                                           degree or more.  0: none is refused, nothing measured */
+    int               tries;           /* lengths a call of gvi_advance tries.  0: 64, the most */
 } gvi_desc;
 
 #define GVI_FAULT_NONE (-1)            /* no effect, coordinate or point        */
@@ -1187,11 +1188,10 @@ GVI_DEF gvi_status gvi_steps(gvi_stepper *st, gvi_real h, int count);
 
      while (st.status == GVI_OK && st.t < t_end) gvi_advance(&st, t_end);
 
-   The length is st.next, found at first from short steps, kept while the accuracy stays within
-   a band; what is left is divided so that the last step is no shorter than half of it.  A step
-   that fails is tried again, shorter, 64 times at most or until t would not move: then its status
-   is returned.  With a clock the length is in tau, and the step may pass t_end: gvi_state_at has
-   the state there.                                                                            */
+   The length is st.next, kept while the accuracy stays within a band; what is left is divided so
+   that the last step is no shorter than half of it.  A step that fails is tried again, shorter,
+   desc.tries times at most or until t would not move: then its status is returned, and the next
+   call goes on with a shorter one.  With a clock h is in tau, and may pass t_end: gvi_state_at. */
 #ifndef GVI_NO_DIAL
 GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end);
 #endif
@@ -2938,6 +2938,7 @@ GVI__COLD const char *gvi__wrong_in_desc(const gvi_desc *d)
     if (d->effect_count && !d->effects) return "effect_count is given, effects is NULL";
     if (d->effects && !d->effect_count) return "effects is given, effect_count is 0";
     if (!gvi__within(d->max_iterations, 1000000)) return "max_iterations is not 0 to 1,000,000";
+    if (!gvi__within(d->tries, 64)) return "tries is not 0 to 64";
     if (!gvi__within(d->iterations, 1000000)) return "iterations is not 0 to 1,000,000";
     if ((unsigned)d->formulation > GVI_NEWTON) return "formulation is not in its enum";
     if ((unsigned)d->mass.kind > GVI_MASS_NONE) return "mass.kind is not in its enum";
@@ -2991,6 +2992,7 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *in, const gvi_desc *desc, g
     if (d->degree == 0) d->degree = d->rule.kind == GVI_KICKS ? 1 : 8;
     if (d->rule.points == 0) d->rule.points = d->degree + (d->rule.kind == GVI_LOBATTO);
     if (d->max_iterations == 0) d->max_iterations = 60;
+    if (d->tries == 0) d->tries = 64;
 
     for (int e = 0; e < d->effect_count; ++e) {
         const gvi_kind kind = d->effects[e].kind;
@@ -8730,8 +8732,7 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
 #ifndef GVI_NO_DIAL
 /* -------------------------------------------------------------- THE DIAL
 
-   desc.resolution: how accurate each step has to be.  A step is measured by the modes of its curve,
-   and gvi_advance chooses h so that the measure stays within the limit.                      */
+   A step is measured by the modes of its curve, and gvi_advance chooses h by that.            */
 
 GVI__COLD const char *gvi__wrong_in_resolution(const gvi_desc *d, int order)
 {
@@ -8800,12 +8801,13 @@ static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real 
 }
 
 /* Mode K of coordinate i by the change of mode K - 1 since the step before; *was: its size there,
-   in steps of this length.                                                                    */
-static gvi_real gvi__mode_since(const gvi_stepper *st, int i, gvi_real *was)
+   in steps of this length.  Without a step before, for K = s = 3, as the modes below it fall. */
+static gvi_real gvi__mode_since(const gvi_stepper *st, int i, const gvi_real *y, gvi_real *was)
 {
     const struct gvi__dial *dial = &st->in.dial;
     const gvi_real h = st->in.sized.h;
-    if (!gvi__nonzero(dial->span)) return 0;
+    if (!gvi__nonzero(dial->span))
+        return st->s == 3 && dial->top == 3 && y[1] > 0 ? y[1]*(y[1]/(y[1] + y[2]))/4 : 0;
 
     const gvi_real before = dial->before[i]*gvi__power(h/dial->span, dial->top - 1),
                    change = (dial->now[i] - before)*(2*h/(h + dial->span));
@@ -8838,7 +8840,7 @@ static gvi_real gvi__missed(const gvi_stepper *st, int i, const gvi_real *y, gvi
     gvi_real high = y[0] + y[1], low = y[2] + y[3], since = 0, was = 0;
 
     *all = ends + high + low;
-    if (top < 5) since = gvi__mode_since(st, i, &was);
+    if (top < 5) since = gvi__mode_since(st, i, y, &was);
     if (top < 4) {
         high = y[0] + since;                                     // alone, a mode may pass 0
         low = top == 3 ? y[1] + y[2] : turn;
@@ -8916,8 +8918,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
     const gvi_real whole = fastest + farthest/h, *shift = gvi__constraint_shift(st);
     if (!(whole > 0)) return 0;
     for (int i = 0; i < st->n; ++i) {
-        const gvi_real own = mass[i]*(v + GVI_ABS(in->state.q[i])/h),
-                       around = gvi__smaller(own, whole);
+        const gvi_real around = gvi__smaller(mass[i]*(v + GVI_ABS(in->state.q[i])/h), whole);
         const int rests = size[i] < around/GVI__RESTS;
 
         // what rounding makes of it: of g, of forces that cancel, of those of constraint anywhere
@@ -9016,9 +9017,8 @@ static gvi_real gvi__length(gvi_real k)
 
 /* How many rungs up, after a step that succeeded.  `room`: up to where the resolution, of order
    2s - 1 in h, reaches its limit, less a margin.  What was lost of it since the step before will be
-   lost again; two octaves are too many to be a measure.  From 0 to GVI__BAND rungs h stays as it
-   is.  Work over time is iterations/h: from GVI__MANY of them on h does not grow, from 5/3 of that
-   on it shrinks a little.                                                                     */
+   lost again; two octaves are no measure.  From 0 to GVI__BAND rungs h stays.  Work over time is
+   iterations/h: from GVI__MANY of them on h does not grow, from 5/3 of that on it shrinks.    */
 static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 {
     struct gvi__dial *dial = &st->in.dial;
@@ -9058,19 +9058,19 @@ static gvi_real gvi__rungs_down(gvi_stepper *st, gvi_status status, gvi_real at,
     return dial->put_off ? -3 : -GVI__FALL;
 }
 
-// st.next after a step of length h; one that an end has shortened says nothing of longer ones
+// st.next after a step of length h, which an end may have made shorter than st.next was
 static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
 {
-    if (status == GVI_OK && h < st->next) return;
-
     const gvi_real seen = gvi__larger(st->resolution, GVI__MIN), at = gvi__rungs(h);
     const gvi_real most = gvi__rungs(st->in.desc.resolution) - gvi__rungs(seen);
     // the modes end at rounding: above GVI__DEEP the resolution falls no faster than there
     const int degree = st->s < GVI__DEEP ? st->s : GVI__DEEP;
     const gvi_real room = most/(gvi_real)(2*degree - 1) - GVI__MARGIN,
                    up = status == GVI_OK ? gvi__rungs_up(st, at, room)
-                                         : gvi__rungs_down(st, status, at, room);
-    if (gvi__nonzero(up)) st->next = gvi__length(at + up);
+                                         : gvi__rungs_down(st, status, at, room),
+                   // half of what was left to an end, doubled, is to be all of it
+                   next = gvi__length(up + (up > 0 && h < st->next ? -GVI_FLOOR(-at) : at));
+    if (up < 0 || next > st->next) st->next = next;
 }
 
 /* A first length: 1/16 of the time in which the forces would make the kinetic energy that there is;
@@ -9128,7 +9128,7 @@ GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
             }
             return status;
         }
-        if (status == GVI_E_ARGUMENT || status == GVI_E_SINGULAR || tries == 64
+        if (status == GVI_E_ARGUMENT || status == GVI_E_SINGULAR || tries == st->in.desc.tries
             || !gvi__nonzero(st->t + st->next - st->t)) return status;
     }
 }

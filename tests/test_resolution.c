@@ -484,6 +484,22 @@ TEST(a_fall_from_rest_is_found_exact)
     }
 }
 
+/* A force that sets in like t: its modes are in the same proportion at any h, and every step is exact */
+GVI_EACH(ramp, 1, f) { x->f[0] += x->t[0]; }
+
+TEST(a_ramp_from_rest_is_found_exact)
+{
+    static const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .points = ramp }, { .kind = GVI_FORCE, .points = ramp } };
+    for (int k = 0; k < 20; ++k) {
+        const real limit = KIND == 1 ? R(1e-3)/(real)(1 + k/4) : pow(R(10.0), -(real)(3 + 2*(k/4)));
+        const gvi_desc desc = { .n = 1, .degree = k/2%2 ? 8 : 4, .effects = effects + k%2, .effect_count = 1, .resolution = limit };
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ 0 }, (const real[]){ 0 });
+        for (int steps = 0; st.t < 1 && steps < 32; ++steps) assert_ok(gvi_advance(&st, 1));
+        assert_close(st.q[0], R(1.0)/6, 16*EPS);
+        assert_int_equal(st.counters.failures, 0);
+    }
+}
+
 #if GVI__KIND == 2
 #define main lesson_25
 #include "25_bricard.c"
@@ -586,6 +602,182 @@ TEST(a_force_that_begins_beside_a_constant_one_is_seen)
             assert_ok(gvi_advance(&st, 20));
             const real v = st.p[0], energy = st.q[0] + exp(-10*st.q[0])/10 + v*v/2;
             assert_close(energy, 10, 100*limit*20*(real)st.counters.steps/16 + 4096*EPS);
+        }
+    }
+}
+
+/* ---- steps that were far too short ---- */
+
+GVI_EACH(charge, 2, v, f, dldv)
+{
+    const real *q = x->q, *v = x->v;
+    x->f[0] += v[1]/2;
+    x->f[1] -= v[0]/2;
+    x->dldv[0] -= q[1]/2;
+    x->dldv[1] += q[0]/2;
+}
+
+GVI_EACH(heavy, 2, f) { x->f[1] -= 1; }
+
+GVI_EACH(rod, 2, rows(1))
+{
+    x->g[0] = (x->q[0]*x->q[0] + x->q[1]*x->q[1] - 1)/2;
+    x->jacobian[0] = x->q[0];
+    x->jacobian[1] = x->q[1];
+}
+
+/* Kapitza's pendulum in units of its pivot's period, upside down */
+GVI_EACH(shaken, 1, f) { x->f[0] += (R(0.00004) - R(0.1)*cos(x->t[0]))*sin(x->q[0]); }
+
+/* A step may be twice as long as the last: from far too short ones it takes log2 of what they lack, and then no more steps than
+   a run that began well, give or take a few of those that failed */
+TEST(a_step_that_is_far_too_short_grows_again)
+{
+    static const gvi_effect scenes[][2] = {
+        { { .kind = GVI_POTENTIAL, .points = attraction } }, { { .kind = GVI_LAGRANGIAN, .points = charge } },
+        { { .kind = GVI_POTENTIAL, .points = heavy }, { .kind = GVI_CONSTRAINT, .points = rod, .rows = 1 } },
+        { { .points = shaken } } };
+    for (int k = 0; k < 16; ++k) {
+        const int scene = k%4;
+        const real dial = pow(R(10.0), KIND == 1 ? R(-3.0) - (real)(k/4)/2 : -8 - 3*(real)(k/8) - (real)(k/4)), t0 = scene == 3 ? 6863 : 0;
+        const real q[2] = { scene == 3 ? R(0.005) : 1, 0 }, v[2] = { 0, scene == 2 ? 1 : R(1.2) };
+        const gvi_desc desc = { .n = scene == 3 ? 1 : 2, .effects = scenes[scene], .effect_count = scene == 2 ? 2 : 1, .resolution = dial };
+        real best = 0, longest = 0;
+        for (int shorter = 0; shorter < 6; ++shorter) {
+            const real first = shorter ? pow(R(10.0), (real)(-2*shorter)) : 0;
+            gvi_stepper st = new_motion(&desc, t0, q, v);
+            if (shorter) st.next = first;
+            for (int steps = 0; st.t < t0 + 20 && steps < 1000; ++steps) {
+                assert_ok(gvi_advance(&st, t0 + 20));
+                if (!shorter) longest = fmax(longest, st.h);
+            }
+            if (!shorter) best = (real)st.counters.steps;
+            else assert_between(0, (real)st.counters.steps, best + fmax(log2(longest/first), 0) + best/4 + 2);
+        }
+    }
+}
+
+/* L = v^2/2 - q^2/2 + a v in units u of time: the motion knows neither a nor u */
+typedef struct { real gauge, unit; } pick;
+
+static int gauge(const gvi_points *x, void *user)
+{
+    const pick *a = user;
+    for (int k = 0; k < x->count; ++k) if (x->dldv) x->dldv[k] += a->gauge*a->unit;
+    return 0;
+}
+
+TEST(the_first_length_knows_neither_gauge_nor_unit)
+{
+    static const real gauges[] = { 0, 1, 1000, -1 };
+    for (int k = 0; k < 20; ++k) {
+        pick a = { gauges[k%4], ldexp(R(1.0), 10*(k/4) - 20) };
+        const real mass = a.unit*a.unit, v = 1/a.unit;
+        const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .points = pull },
+                                       { .kind = GVI_LAGRANGIAN, .points = gauge, .user = &a } };
+        const gvi_desc desc = { .n = 1, .effects = effects, .effect_count = 2, .resolution = KIND == 1 ? R(1e-4) : R(1e-10),
+                                .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = &mass } };
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ 1 }, &v);
+        assert_ok(gvi_advance(&st, 100*a.unit));
+        // v'Mv/(f'M^-1 f) is 1; velocities of momenta that the gauge makes large round
+        assert_close(st.h/a.unit, R(0.0625), 16*EPS*(1 + fabs(a.gauge)));
+    }
+}
+
+/* ---- calls that are bounded ---- */
+
+/* One length a call gives the run of 64 a call, to the bit; a call that fails leaves the state */
+TEST(tries_bound_a_call_and_change_no_step)
+{
+    gvi_desc desc = of(8, R(1e-4));
+    gvi_stepper a = started(&desc, room, 0);
+    desc.tries = 1;
+    gvi_stepper b = started(&desc, spare, 0);
+    a.next = b.next = 8;
+    int refused = 0;
+    for (int k = 0; k < 100; ++k) {
+        assert_ok(gvi_advance(&a, 1000));
+        for (int more = 1; more; ) {
+            const unsigned long long tried = b.counters.steps + b.counters.failures;
+            const test_state was = state_now(&b);
+            more = gvi_advance(&b, 1000) == GVI_E_RESOLUTION || b.status == GVI_E_CONVERGENCE;
+            if (more) compare_state(&was, __FILE__, __LINE__);
+            assert_true(b.counters.steps + b.counters.failures == tried + 1);
+            refused += more;
+        }
+        assert_true(a.t == b.t && a.next == b.next && a.q[0] == b.q[0] && a.p[1] == b.p[1]);
+    }
+    assert_true(refused > 3 && a.counters.failures == b.counters.failures);
+}
+
+/* An end divides what is left, which takes at most one step more; and no step is worse than without ends */
+static void kepler_rates(real t, const real *y, real *dy, void *user)
+{
+    const real d2 = y[0]*y[0] + y[1]*y[1], w = -1/(d2*sqrt(d2));
+    dy[0] = y[2];
+    dy[1] = y[3];
+    dy[2] = w*y[0];
+    dy[3] = w*y[1];
+    (void)t, (void)user;
+}
+
+TEST(an_end_costs_one_step_and_no_accuracy)
+{
+    static const int degrees[] = { 3, 4, 8 };
+    const motion exactly = { 4, kepler_rates, NULL };
+    for (int k = 0; k < COUNT(degrees); ++k) {
+        const gvi_desc desc = of(degrees[k], KIND == 1 ? R(1e-3) : R(1e-7));
+        gvi_stepper free = started(&desc, room, 0), st = started(&desc, spare, 0);
+        const int ends = 60;
+        while (free.t < 20) assert_ok(gvi_advance(&free, 20));
+        for (int end = 1; end <= ends; ++end)
+            while (st.t < (real)end/3) {
+                real start[4] = { st.q[0], st.q[1], st.p[0], st.p[1] }, y[4];
+                memcpy(y, start, sizeof y);
+                assert_ok(gvi_advance(&st, (real)end/3));
+                if (st.counters.steps < 8) continue;
+                flow(&exactly, 0, st.h, st.h/4, y);
+                assert_between(0, error_of(&st, start, y, st.p), 100*desc.resolution + 64*EPS);
+            }
+        assert_between(0, st.counters.steps, free.counters.steps + (unsigned)ends + free.counters.steps/20);
+        assert_between(0, st.counters.failures, free.counters.failures + free.counters.steps/20 + 2);
+    }
+}
+
+/* A ball falls on a soft wall: a constant force hides what begins */
+static void wall_rates(real t, const real *y, real *dy, void *user)
+{
+    const real *w = user;
+    dy[0] = y[1];
+    dy[1] = exp(-y[0]/ *w) - 1;
+    (void)t;
+}
+
+static int wall(const gvi_points *x, void *user)
+{
+    const real *w = user;
+    for (int k = 0; k < x->count; ++k) x->f[k] += exp(-x->q[k]/ *w) - 1;
+    return 0;
+}
+
+TEST(no_step_of_a_fall_is_worse_than_100_times_the_limit)
+{
+    static const int degrees[] = { 3, 4, 5, 6, 8, 12 };
+    for (int k = 0; k < 36; ++k) {
+        real w = k < 18 ? 1 : R(0.1);
+        const int degree = degrees[k%6];
+        const real dial = KIND == 1 ? pow(R(10.0), -R(2.0) - (real)(k/6%3)) : pow(R(10.0), -6 - 2*(real)(k/6%3));
+        const gvi_effect effects[] = { { .points = wall, .user = &w } };
+        const motion exactly = { 2, wall_rates, &w };
+        const gvi_desc desc = { .n = 1, .degree = degree, .effects = effects, .effect_count = 1, .resolution = dial };
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ 10 }, (const real[]){ 0 });
+        while (st.t < 20) {
+            real start[2] = { st.q[0], st.p[0] }, y[2] = { start[0], start[1] };
+            assert_ok(gvi_advance(&st, 20));
+            flow(&exactly, 0, st.h, fmin(st.h, w/4), y);
+            // q is rounded at both ends, over h
+            const real fast = fabs(start[1]) + fabs(st.p[0]), rounding = 16*EPS*(1 + fabs(start[0])/(st.h*fast));
+            assert_between(0, error_of(&st, start, y, st.p), 100*dial + rounding);
         }
     }
 }

@@ -185,6 +185,7 @@ TEST(each_refused_description_has_its_sentence)
         { { .n = 1, .effect_count = 1 }, 1, GVI_E_ARGUMENT, "effects is NULL" },
         { { .n = 1, .effects = e }, 1, GVI_E_ARGUMENT, "effect_count is 0" },
         { { .n = 1, .max_iterations = -1 }, 1, GVI_E_ARGUMENT, "max_iterations is not" },
+        { { .n = 1, .tries = 65 }, 1, GVI_E_ARGUMENT, "tries is not" },
         { { .n = 1, .iterations = -1 }, 1, GVI_E_ARGUMENT, "iterations is not" },
         { { .n = 1, .iterations = 1000001 }, 1, GVI_E_ARGUMENT, "iterations is not" },
         { { .n = 1, .formulation = (gvi_formulation)9 }, 1, GVI_E_ARGUMENT, "formulation is not in its enum" },

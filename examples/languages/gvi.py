@@ -47,7 +47,7 @@ gvi_rule = structure("gvi_rule", [("kind", whole), ("points", whole), ("nodes", 
 gvi_desc = structure("gvi_desc", [
     ("n", whole), ("degree", whole), ("rule", gvi_rule), ("mass", gvi_mass), ("effects", C.POINTER(gvi_effect)),
     ("effect_count", whole), ("formulation", whole), ("tolerance", real), ("max_iterations", whole), ("iterations", whole),
-    ("resolution", real), ("later", real*8)])             # what later versions add: zeros
+    ("resolution", real), ("tries", whole), ("later", real*8)])     # what later versions add: zeros
 gvi_fault = structure("gvi_fault", [("effect", whole), ("coordinate", whole), ("point", whole), ("argument", text)])
 gvi_counters = structure("gvi_counters", [(c, C.c_ulonglong) for c in (
     "steps", "failures", "iterations", "newton_iterations", "factorizations", "velocities", "mass")] + [

@@ -619,7 +619,7 @@ const problem problems[] = {
       .acceleration = toda_acceleration, SCENE(toda_scene), .evaluations = 300, .limit = 10 },
     { .key = "P9", .title = "Arenstorf's orbit, one revolution", .n = 2, .end = 17.065216560157964,
       .q = arenstorf_q, .v = arenstorf_p, .reference = reference_arenstorf, .energy = arenstorf_energy,
-      .slope = arenstorf_slope, .law = arenstorf_law, .momentum = arenstorf_momentum, SCENE(arenstorf_scene), .formulation = GVI_VELOCITIES, .evaluations = 2e3, .limit = 20 },
+      .slope = arenstorf_slope, .law = arenstorf_law, .momentum = arenstorf_momentum, SCENE(arenstorf_scene), .evaluations = 2e3, .limit = 20 },
     { .key = "P10", .title = "Magnetic bottle, t = 200", .n = 3, .end = 200,
       .q = bottle_q, .v = bottle_v, .reference = reference_bottle, .energy = bottle_energy,
       .slope = bottle_slope, .law = bottle_law, SCENE(bottle_scene), .formulation = GVI_VELOCITIES, .evaluations = 600, .limit = 4 },

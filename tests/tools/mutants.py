@@ -196,8 +196,8 @@ MUTANTS = [
     ("resolution", "        st->in.dial.put_off = 0;\n", ""),
     ("resolution", "if (left < 0) up = gvi__larger(left - 1, -GVI__FALL);", ""),
     ("resolution", "                st->t_low += st->t - t_end;\n", ""),
-    ("resolution", "if (status == GVI_E_ARGUMENT || status == GVI_E_SINGULAR || tries == 64",
-                   "if (status == GVI_E_ARGUMENT || tries == 64"),
+    ("resolution", "if (status == GVI_E_ARGUMENT || status == GVI_E_SINGULAR || tries == st->in.desc.tries",
+                   "if (status == GVI_E_ARGUMENT || tries == st->in.desc.tries"),
 ]
 
 # What the tests that are named do not see meets all of these.
