@@ -86,6 +86,21 @@ $(BUILD)/everyday/typed-%.o: tests/everyday/typed.c tests/everyday/typed.cpp tes
 	$(Q)$(if $(HAS_CXX),$(CXX) -std=c++11 $(FLAGS) $(TESTFLAGS) -O1 $(REAL_OF) -c tests/everyday/typed.cpp -o $@.cpp.o)
 	$(Q)$(LD) -r $@.c.o $(if $(HAS_CXX),$@.cpp.o) -o $@
 
+#: textbook     Lagrangians as textbooks print them against equations of motion derived by hand (two seconds of one core)
+#: textbook-all the same in C and C++, in all types (a minute of one core)
+TEXTBOOK = $(foreach real,double float long,$(BUILD)/typed/c-$(real) $(if $(HAS_CXX),$(BUILD)/typed/cpp-$(real)))
+.PHONY: textbook textbook-all
+textbook: $(BUILD)/typed/c-double
+	$(STEP) $@ $<
+textbook-all: $(TEXTBOOK)
+	$(STEP) $@ sh -c 'bad=0; for i; do "$$i" || bad=1; done; exit $$bad' - $^
+$(BUILD)/typed/c-%: tests/typed/textbook.c tests/typed/systems.h examples/tools/lagrangian.h $(BUILD)/gvi-%.o
+	@mkdir -p $(@D)
+	$(Q)$(CC) -std=c99 $(FLAGS) $(TESTFLAGS) -O1 $(REAL_OF) -DGVI_IMPLEMENTED $< $(filter %.o,$^) -o $@ $(LDLIBS)
+$(BUILD)/typed/cpp-%: tests/typed/textbook.c tests/typed/systems.h examples/tools/lagrangian.h $(BUILD)/gvi-%.o
+	@mkdir -p $(@D)
+	$(Q)$(CXX) -std=c++11 $(FLAGS) $(TESTFLAGS) -O1 $(REAL_OF) -DGVI_IMPLEMENTED -xc++ $< -xnone $(filter %.o,$^) -o $@ $(LDLIBS)
+
 #: sanitize     tests and examples under the address and undefined behaviour sanitizers
 # By clang where there is one: it alone sees arithmetic on NULL.
 # Not test_advise: its sweeps are minutes of calls that the others make too.
