@@ -563,7 +563,7 @@ static inline gvi_real lagrangian_decade(unsigned *seed, int most)
     return x;
 }
 
-static inline gvi_points lagrangian_point(int n, const gvi_real *t, const gvi_real *q)
+LAGRANGIAN__INLINE gvi_points lagrangian_point(int n, const gvi_real *t, const gvi_real *q)
 {
     gvi_points x;
     memset(&x, 0, sizeof x);
@@ -575,7 +575,7 @@ static inline gvi_points lagrangian_point(int n, const gvi_real *t, const gvi_re
 }
 
 /* Nothing yet, of F at w, or with w NULL at rest */
-static inline lagrangian_wanted lagrangian_want(const void *user, const gvi_points *x, const gvi_real *w, lagrangian_real scale)
+LAGRANGIAN__INLINE lagrangian_wanted lagrangian_want(const void *user, const gvi_points *x, const gvi_real *w, lagrangian_real scale)
 {
     lagrangian_wanted a;
     memset(&a, 0, sizeof a);
@@ -1053,15 +1053,17 @@ static inline const char *lagrangian_check_mass(lagrangian *L, gvi_real t, const
 {
     const int n = L->function.n;
     gvi_real H[LAGRANGIAN__MATRIX], pivot[LAGRANGIAN_MOST + 1];
-    if (lagrangian_largest(n*n, L->M) <= 0)
+    const int known = L->kind != LAGRANGIAN_GENERAL;           // else the library finds out
+    if (known && lagrangian_largest(n*n, L->M) <= 0)
         return lagrangian_refuse(L, "%s is linear in %s: its equations are of first order; give H(t,q,p) by HAMILTONIAN", "L", "v", 0);
     for (int i = 0; i < n; ++i) {
-        if (lagrangian_largest(n, L->M + i*n) > 0) continue;
+        if (known && lagrangian_largest(n, L->M + i*n) > 0) continue;
         if (lagrangian_is_multiplier(L, t, q, v, i))
             return lagrangian_refuse(L, "%s has no kinetic energy in q%s[%d] and is linear in it: is it a multiplier? Leave its term "
                                         "out, and give what it multiplies as a row, by HOLDS (GVI_CONSTRAINT)", "L", "", i);
-        return lagrangian_refuse(L, "%s has no kinetic energy in q%s[%d] at the start", "L", "", i);
+        if (known) return lagrangian_refuse(L, "%s has no kinetic energy in q%s[%d] at the start", "L", "", i);
     }
+    if (!known) return NULL;
 
     memcpy(H, L->M, sizeof H);
     for (int i = 0; i < n; ++i) {                  // each coordinate in units that make its own mass 1
@@ -1200,7 +1202,7 @@ static inline const char *lagrangian_init(lagrangian *L, lagrangian_function fun
     if (L->kind == LAGRANGIAN_GENERAL && lagrangian_is_length(L, t, q, v))
         return lagrangian_refuse(L, "%s is of first degree in %s, as a length is: any speed along the curve would do. Take "
                                     "half its square, v'g(q)v/2, whose curves are the same", "L", "v", 0);
-    if (L->kind != LAGRANGIAN_GENERAL && lagrangian_check_mass(L, t, q, v)) return L->why;
+    if (lagrangian_check_mass(L, t, q, v)) return L->why;
     L->found = L->kind;
     L->t = t;
     memcpy(L->q, q, (size_t)n*sizeof *q);
@@ -1228,10 +1230,11 @@ static inline const char *lagrangian_text(const lagrangian *L)
 
 /* ------------------------------------------------------------------ the watch
 
-   Is L still what it was found to be?  One dL/dv_i at one point of 32 against what L.kind says, at the v of the step
-   or, where a step makes none, at one that its points show.  Of C every fourth look also compares a
-   derivative with a difference, along the motion.  What is off makes the callback fail, and from then on all points
+   Is L still what it was found to be?  One dL/dv_i at one point of 36 against what L.kind says, at the v of the step
+   or, where a step makes none, at one that its points show.  Of C every fourth look also compares the derivative
+   along the motion with a difference.  What is off makes the callback fail, and from then on all points
    are looked at until none is.                                                 */
+enum { LAGRANGIAN__EVERY = 36 };
 
 static inline int lagrangian_fail(lagrangian *L, const gvi_points *x)
 {
@@ -1285,19 +1288,21 @@ static inline int lagrangian_look(lagrangian *L, const gvi_points *x)
     const int n = x->n;
     gvi_real q[LAGRANGIAN_MOST], v[LAGRANGIAN_MOST], way[2*LAGRANGIAN_MOST];
     L->points += x->count > 4 ? x->count : 4;      // explicit steps have one
-    if (!L->alert && L->points < 32) return 0;
+    if (!L->alert && L->points < LAGRANGIAN__EVERY) return 0;
     L->points = 0;
     if (!L->alert) ++L->looks;
 
-    const int one = (L->looks*3)%x->count, from = L->alert ? 0 : one, end = L->alert ? x->count : one + 1;
+    const int one = (L->looks*3)%x->count, from = L->alert ? 0 : one, end = L->alert ? x->count : one + 1,
+              derivatives = LAGRANGIAN__LOSES && (L->alert || L->looks%4 == 0);
     for (int k = from; k < end; ++k) {
         lagrangian_state(L, x, k, q, v, way);
-        if (!lagrangian_finite(n, q) || !lagrangian_finite(n, v)) continue;      // an iterate that went astray
-        if (lagrangian_is_other(L, x->t[k], q, v, L->looks%n)) return lagrangian_fail(L, x);
-        if (LAGRANGIAN__LOSES && (L->alert || L->looks%4 == 0) && lagrangian_loses(L, x->t[k], q, v, way)) return lagrangian_fail(L, x);
-    }
+        const int off = lagrangian_is_other(L, x->t[k], q, v, L->looks%n)
+                        || (derivatives && lagrangian_loses(L, x->t[k], q, v, way));
+        if (off && lagrangian_finite(n, q) && lagrangian_finite(n, v)) return lagrangian_fail(L, x);       // else an iterate
+    }                                                                                                  // went astray
     if (L->alert) --L->alert;
-    L->t = x->t[end - 1];
+    if (x->count > 1) return 0;
+    L->t = x->t[0];
     memcpy(L->q, q, (size_t)n*sizeof *q);
     memcpy(L->v, v, (size_t)n*sizeof *v);
     return 0;
@@ -1310,26 +1315,36 @@ static inline int lagrangian_other_n(const gvi_points *x)
     return gvi_fail(x, "desc.n is not that of LAGRANGIAN or HAMILTONIAN");
 }
 
+static inline void lagrangian_less_kinetic(const lagrangian *L, const gvi_points *x)
+{
+    lagrangian_wanted a = lagrangian_want_quadratic(L->user, x, x->v, -1);
+    a.value = x->value;
+    if (L->kind == LAGRANGIAN_MASS_LINEAR) a.by_q = x->f;        // see lagrangian_gradient
+    if (a.by_q || a.value) L->function.add(&a);
+}
+
 /* POTENTIAL, MASS: -V = L(t,q,0).  LINEAR, MASS_LINEAR: L - v'Mv/2.  GENERAL: L */
 static inline int lagrangian_points(const gvi_points *x, void *user)
 {
     lagrangian *L = (lagrangian *)user;
     const int whole = L->kind == LAGRANGIAN_GENERAL, term = lagrangian_has(L->kind, LAGRANGIAN__TERM) && !whole;
     if (x->n != L->function.n) return lagrangian_other_n(x);
-    lagrangian_wanted a = lagrangian_want(L->user, x, whole || term ? x->v : NULL, 1), value = a, at_rest = a,
-                      kinetic = lagrangian_want_quadratic(L->user, x, x->v, -1);
+    lagrangian_wanted a = lagrangian_want(L->user, x, whole || term ? x->v : NULL, 1);
     a.by_q = x->f;
     a.by_w = whole ? x->dldv : NULL;
-    value.value = kinetic.value = x->value;
-    if (!whole && !term) value.scale = -1;
-    at_rest.w = NULL;
-    at_rest.by_w = x->dldv;
-    if (L->kind == LAGRANGIAN_MASS_LINEAR) kinetic.by_q = x->f;        // see lagrangian_gradient
-
     if (a.by_q || a.by_w) L->function.add(&a);
-    if (x->value) L->function.add(&value);
-    if (term && x->dldv) L->function.add(&at_rest);
-    if (term && (kinetic.by_q || x->value)) L->function.add(&kinetic);
+
+    a.by_q = NULL;
+    a.by_w = NULL;
+    a.value = x->value;
+    if (!whole && !term) a.scale = -1;
+    if (a.value) L->function.add(&a);
+
+    a.value = NULL;
+    a.w = NULL;
+    a.by_w = x->dldv;
+    if (term && a.by_w) L->function.add(&a);
+    if (term) lagrangian_less_kinetic(L, x);
     return x->f && L->kind != LAGRANGIAN_MASS ? lagrangian_look(L, x) : 0;
 }
 
@@ -1464,6 +1479,7 @@ static inline int hamiltonian_term(const gvi_points *x, void *user)
 {
     const hamiltonian *H = (const hamiltonian *)user;
     const int n = x->n, R = x->stride;
+    if (!x->f && !x->dldv && x->v != H->v) return gvi_fail(x, "H has no action: its step is collocation");
     if (!H->p || x->q != H->q || x->v != H->v) return gvi_fail(x, "H needs gvi_start_momentum and GVI_MOMENTA: a velocity is not its start");
     lagrangian_wanted a = lagrangian_want(H->user, x, H->p, -1);
     a.by_q = x->f;
