@@ -256,13 +256,14 @@ cost-horizon: $(BUILD)/cost/cost
 
 #: kicks        splittings as tables of kicks against the same written by hand (ten seconds)
 #: points       callbacks by GVI_POINTS against loops by hand and .point (ten seconds); COST_CFLAGS="-O2 -fno-math-errno"
-#: from-l       what it costs to give L alone, in C and in C++, against derivatives by hand (half a minute)
+#: from-l       what it costs to give L alone, in C and in C++, against derivatives by hand, and what the watch takes of a step
+#:              in instructions (valgrind; a minute)
 from-l: tests/cost/from_l.c $(BUILD)/gvi-double.o
 	@mkdir -p $(BUILD)/cost
 	$(Q)$(CC) -std=c99 $(FLAGS) -O2 -Iexamples -DGVI_IMPLEMENTED $^ -o $(BUILD)/cost/from_l $(LDLIBS)
-	$(Q)echo C && $(BUILD)/cost/from_l
+	$(Q)echo C && $(BUILD)/cost/from_l && sh tests/tools/watch.sh $(BUILD)/cost/from_l
 	$(Q)$(CXX) -std=c++11 $(FLAGS) -O2 -Iexamples -DGVI_IMPLEMENTED -xc++ $< -xnone $(BUILD)/gvi-double.o -o $(BUILD)/cost/from_l $(LDLIBS)
-	$(Q)echo C++ && $(BUILD)/cost/from_l
+	$(Q)echo C++ && $(BUILD)/cost/from_l && sh tests/tools/watch.sh $(BUILD)/cost/from_l
 
 #: typed        10,000 random Lagrangians for lagrangian.h, 1,000 with the wrong kind, 1,000 with a derivative lost (a minute)
 typed: tests/fuzz/typed.c $(BUILD)/gvi-double.o

@@ -285,7 +285,7 @@ LAGRANGIAN__INLINE void lagrangian_add(lagrangian_body *F, int n, int rows, int 
             const lagrangian_real at = d < to ? creal(z[d]) : 0;
             if (d < to) z[d] = lagrangian_number(at, LAGRANGIAN__STEP);
             for (int r = 0; r < rows && timed; ++r) row[r] = 0;
-            y = F(timed ? z[0] : x->t[k], z + 1, z + w, row, a->user);
+            y = F(timed ? z[0] : (number)x->t[k], z + 1, z + w, row, a->user);
             if (d >= to) break;
             z[d] = at;
             for (int r = 0; r < rows; ++r) {
@@ -300,16 +300,17 @@ LAGRANGIAN__INLINE void lagrangian_add(lagrangian_body *F, int n, int rows, int 
 
 /* leave: `return` where name_at returns its one row */
 #define LAGRANGIAN__DECLARE(name, n, rows, timed, type, leave)                                  \
-    LAGRANGIAN__INLINE type name##_at(number t, const number *q, const number *w, number *row, const void *user); \
-    LAGRANGIAN__INLINE number name##_rows(number t, const number *q, const number *w, number *row, const void *user) \
+    LAGRANGIAN__INLINE type name##_at(number, const number *, const number *, number *, const void *); \
+    LAGRANGIAN__INLINE number name##_rows(number lagrangian_t, const number *lagrangian_q, const number *lagrangian_w, \
+                                          number *lagrangian_row, const void *lagrangian_user)  \
     {                                                                                           \
-        leave name##_at(t, q, w, row, user);                                                    \
-        return row[0];                                                                          \
+        leave name##_at(lagrangian_t, lagrangian_q, lagrangian_w, lagrangian_row, lagrangian_user); \
+        return lagrangian_row[0];                                                               \
     }                                                                                           \
-    LAGRANGIAN__PLAIN static void name##_add(const lagrangian_wanted *lagrangian_w)             \
+    LAGRANGIAN__PLAIN static void name##_add(const lagrangian_wanted *lagrangian_a)             \
     {                                                                                           \
         number lagrangian_z[2*(n) + 1 + (rows)];                                                \
-        lagrangian_add(name##_rows, n, rows, timed, lagrangian_z, lagrangian_w);                \
+        lagrangian_add(name##_rows, n, rows, timed, lagrangian_z, lagrangian_a);                \
     }
 #define LAGRANGIAN__BODY(name, type, w, row)                                                    \
     LAGRANGIAN__INLINE type name##_at(LAGRANGIAN__UNUSED number t, LAGRANGIAN__UNUSED const number *q, \
@@ -460,15 +461,16 @@ template <class F, int n, int rows> inline void lagrangian_any(const lagrangian_
 /* leave: `return` where `at` returns its one row */
 #define LAGRANGIAN__DECLARE(name, n, rows_, timed, type, leave)                                 \
     struct name##_body {                                                                        \
-        template <class number> type at(number t, const number *q, const number *w, number *row, const void *user) const; \
-        template <class number>                                                                 \
-        LAGRANGIAN__UNROLLED LAGRANGIAN__ALWAYS number rows(number t, const number *q, const number *w, number *row, const void *user) const \
+        template <class number> type at(number, const number *, const number *, number *, const void *) const; \
+        template <class number> LAGRANGIAN__UNROLLED LAGRANGIAN__ALWAYS                         \
+        number rows(number lagrangian_t, const number *lagrangian_q, const number *lagrangian_w, \
+                    number *lagrangian_row, const void *lagrangian_user) const                  \
         {                                                                                       \
-            leave at(t, q, w, row, user);                                                       \
-            return row[0];                                                                      \
+            leave at(lagrangian_t, lagrangian_q, lagrangian_w, lagrangian_row, lagrangian_user); \
+            return lagrangian_row[0];                                                           \
         }                                                                                       \
     };                                                                                          \
-    static void name##_add(const lagrangian_wanted *lagrangian_w) { lagrangian_any<name##_body, n, rows_>(lagrangian_w); }
+    static void name##_add(const lagrangian_wanted *lagrangian_a) { lagrangian_any<name##_body, n, rows_>(lagrangian_a); }
 #define LAGRANGIAN__BODY(name, type, w, row)                                                    \
     template <class number>                                                                     \
     LAGRANGIAN__UNROLLED LAGRANGIAN__ALWAYS inline type name##_body::at(                        \
