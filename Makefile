@@ -41,9 +41,9 @@ EXAMPLES     = $(C_EXAMPLES) $(CXX_EXAMPLES)
 VALGRIND     = test_api test_lu test_interpolation 07_driven_damped 36_building_blocks 03_failing_step 11_robot_joint 17_checkpoint
 
 # `make test` is for a person, two minutes; `make check` is the rest, twenty.
-TEST_STEPS  = $(TESTS) everyday-drawn $(EXAMPLES) docs-check symbols headers-quick
+TEST_STEPS  = $(TESTS) everyday-drawn textbook $(EXAMPLES) docs-check symbols headers-quick
 HARD_SHORT  = hard-eccentric hard-flyby hard-corners hard-pythagorean hard-random-short hard-rest-short hard-rolling-short
-CHECK_STEPS = headers everyday $(VARIANTS) $(EXAMPLES:%=alone-%) any_processor chapters bound float instructions prices ensemble usable languages boards \
+CHECK_STEPS = headers everyday textbook-all $(VARIANTS) $(EXAMPLES:%=alone-%) any_processor chapters bound float instructions prices ensemble usable languages boards \
               $(VALGRIND:%=valgrind-%) sanitize hard-long-float hard-corners-float $(HARD_SHORT) theorem-curve firmware fuzz-short fuzz-rolling-short fuzz-contact-short
 
 STEP = $(Q)sh tests/tools/step.sh $(BUILD)

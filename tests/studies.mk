@@ -86,6 +86,21 @@ $(BUILD)/everyday/typed-%.o: tests/everyday/typed.c tests/everyday/typed.cpp tes
 	$(Q)$(if $(HAS_CXX),$(CXX) -std=c++11 $(FLAGS) $(TESTFLAGS) -O1 $(REAL_OF) -c tests/everyday/typed.cpp -o $@.cpp.o)
 	$(Q)$(LD) -r $@.c.o $(if $(HAS_CXX),$@.cpp.o) -o $@
 
+#: textbook     Lagrangians as textbooks print them against equations of motion derived by hand (two seconds of one core)
+#: textbook-all the same in C and C++, in all types (a minute of one core)
+TEXTBOOK = $(foreach real,double float long,$(BUILD)/typed/c-$(real) $(if $(HAS_CXX),$(BUILD)/typed/cpp-$(real)))
+.PHONY: textbook textbook-all
+textbook: $(BUILD)/typed/c-double
+	$(STEP) $@ $<
+textbook-all: $(TEXTBOOK)
+	$(STEP) $@ sh -c 'bad=0; for i; do "$$i" || bad=1; done; exit $$bad' - $^
+$(BUILD)/typed/c-%: tests/typed/textbook.c tests/typed/systems.h examples/tools/lagrangian.h $(BUILD)/gvi-%.o
+	@mkdir -p $(@D)
+	$(Q)$(CC) -std=c99 $(FLAGS) $(TESTFLAGS) -O1 $(REAL_OF) -DGVI_IMPLEMENTED $< $(filter %.o,$^) -o $@ $(LDLIBS)
+$(BUILD)/typed/cpp-%: tests/typed/textbook.c tests/typed/systems.h examples/tools/lagrangian.h $(BUILD)/gvi-%.o
+	@mkdir -p $(@D)
+	$(Q)$(CXX) -std=c++11 $(FLAGS) $(TESTFLAGS) -O1 $(REAL_OF) -DGVI_IMPLEMENTED -xc++ $< -xnone $(filter %.o,$^) -o $@ $(LDLIBS)
+
 #: sanitize     tests and examples under the address and undefined behaviour sanitizers
 # By clang where there is one: it alone sees arithmetic on NULL.
 # Not test_advise: its sweeps are minutes of calls that the others make too.
@@ -251,13 +266,14 @@ cost-horizon: $(BUILD)/cost/cost
 
 #: kicks        splittings as tables of kicks against the same written by hand (ten seconds)
 #: points       callbacks by GVI_POINTS against loops by hand and .point (ten seconds); COST_CFLAGS="-O2 -fno-math-errno"
-#: from-l       what it costs to give L alone, in C and in C++, against derivatives by hand (half a minute)
+#: from-l       what it costs to give L alone, in C and in C++, against derivatives by hand, and what the watch takes of a step
+#:              in instructions (valgrind; a minute)
 from-l: tests/cost/from_l.c $(BUILD)/gvi-double.o
 	@mkdir -p $(BUILD)/cost
 	$(Q)$(CC) -std=c99 $(FLAGS) -O2 -Iexamples -DGVI_IMPLEMENTED $^ -o $(BUILD)/cost/from_l $(LDLIBS)
-	$(Q)echo C && $(BUILD)/cost/from_l
+	$(Q)echo C && $(BUILD)/cost/from_l && sh tests/tools/watch.sh $(BUILD)/cost/from_l
 	$(Q)$(CXX) -std=c++11 $(FLAGS) -O2 -Iexamples -DGVI_IMPLEMENTED -xc++ $< -xnone $(BUILD)/gvi-double.o -o $(BUILD)/cost/from_l $(LDLIBS)
-	$(Q)echo C++ && $(BUILD)/cost/from_l
+	$(Q)echo C++ && $(BUILD)/cost/from_l && sh tests/tools/watch.sh $(BUILD)/cost/from_l
 
 #: typed        10,000 random Lagrangians for lagrangian.h, 1,000 with the wrong kind, 1,000 with a derivative lost (a minute)
 typed: tests/fuzz/typed.c $(BUILD)/gvi-double.o

@@ -98,7 +98,7 @@ typedef GVI_REAL lagrangian_real;
 #define LAGRANGIAN__SQRT(x) GVI_SQRT(x)
 #endif
 
-/* What is wanted of a function F(t,q,w) at the points of x: `scale` times its value and its
+/* What is wanted of a function F(t,q,w), or of rows of them, at the points of x: `scale` times its value and its
    derivatives, added to what is not NULL.                                      */
 typedef struct lagrangian_wanted {
     const gvi_points *x;              /* t, q                                   */
@@ -107,16 +107,18 @@ typedef struct lagrangian_wanted {
     lagrangian_real   times;          /* w, or the 1, times this                */
     lagrangian_real   scale;
     lagrangian_real   least;          /* not 0: nothing where w is 0, no derivative below `least` times the value */
-    gvi_real         *value, *by_q, *by_w;
+    gvi_real         *value, *by_q, *by_w;         /* [rows][stride], [rows*n][stride] */
     int               first, end, apart;  /* of by_w: these coordinates, [.][apart] */
     const gvi_real   *along;          /* [2n] if not NULL: of derivatives only that in this direction */
     gvi_real         *by_along;       /* [count]                                */
     const void       *user;
+    gvi_real         *by_t;           /* [rows][stride], with by_q alone        */
 } lagrangian_wanted;
 
 typedef struct lagrangian_function {
     int n;
     void (*add)(const lagrangian_wanted *wanted);
+    int rows;                         /* 0: one function                        */
 } lagrangian_function;
 
 LAGRANGIAN__INLINE int lagrangian_is_zero(lagrangian_real x) { return x <= 0 && x >= 0; }
@@ -130,13 +132,8 @@ LAGRANGIAN__INLINE int lagrangian_rests(const lagrangian_wanted *a, int k)
     return 1;
 }
 
-/* Rows at one point: values [m], and slopes [m][n + 1] by q and t, or by v; w NULL: 0 */
-enum { LAGRANGIAN__VALUES, LAGRANGIAN__BY_Q, LAGRANGIAN__BY_V };
-typedef void lagrangian_rows(lagrangian_real t, const lagrangian_real *q, const lagrangian_real *w, int by,
-                             lagrangian_real *values, lagrangian_real *slopes, const void *user);
-
-static inline int lagrangian_holds(lagrangian_rows *rows, int n, int m, lagrangian_real *room, const gvi_points *x, void *user);
-static inline int lagrangian_rolls(lagrangian_rows *rows, int n, int m, lagrangian_real *room, const gvi_points *x, void *user);
+static inline int lagrangian_holds(const lagrangian_function *rows, gvi_real *room, const gvi_points *x, void *user);
+static inline int lagrangian_rolls(const lagrangian_function *rows, gvi_real *room, const gvi_points *x, void *user);
 static inline int lagrangian_dissipates(const lagrangian_function *F, const gvi_points *x, void *user);
 
 /* -------------------------------------------------- numbers with a derivative
@@ -256,8 +253,8 @@ LAGRANGIAN__OF_TWO(LAGRANGIAN__NUMBERS)
 #define LAGRANGIAN__PLAIN
 #endif
 
-/* One coordinate after the other; z[2n]: q and w. */
-typedef number lagrangian_body(number t, const number *q, const number *w, const void *user);
+/* Returns the first row; the others are in row[] */
+typedef number lagrangian_body(number t, const number *q, const number *w, number *row, const void *user);
 
 LAGRANGIAN__INLINE gvi_real lagrangian_slope_of(number y, const lagrangian_wanted *a, lagrangian_real by)
 {
@@ -265,85 +262,59 @@ LAGRANGIAN__INLINE gvi_real lagrangian_slope_of(number y, const lagrangian_wante
     return (gvi_real)(by*cimag(y));
 }
 
-LAGRANGIAN__INLINE void lagrangian_add(lagrangian_body *F, int n, number *z, const lagrangian_wanted *wanted)
+/* One number after the other; z[2n + 1 + rows]: t, q, w and the rows.  `timed`, known to the compiler: by t as well? */
+LAGRANGIAN__INLINE void lagrangian_add(lagrangian_body *F, int n, int rows, int timed, number *z, const lagrangian_wanted *wanted)
 {
     const lagrangian_wanted own = *wanted, *a = &own;         // which no output overlaps
     const gvi_points *x = a->x;
-    const int from = a->by_q ? 0 : n + a->first, to = a->by_w ? n + a->end : n, R = x->stride;
+    const int w = n + 1, from = timed && a->by_t ? 0 : a->by_q ? 1 : w + a->first, to = a->by_w ? w + a->end : w, R = x->stride;
     const lagrangian_real by = a->scale/LAGRANGIAN__STEP;
+    number *row = z + w + n;
     for (int k = 0; k < x->count; ++k) {
         if (lagrangian_rests(a, k)) continue;
+        if (timed) z[0] = x->t[k];
         for (int i = 0; i < n; ++i) {
-            z[i] = x->q[i*R + k];
-            z[n + i] = a->w ? a->times*(lagrangian_real)a->w[i*R + k] : i == a->one ? a->times : 0;
+            z[1 + i] = x->q[i*R + k];
+            z[w + i] = a->w ? a->times*(lagrangian_real)a->w[i*R + k] : i == a->one ? a->times : 0;
         }
-        for (int d = 0; a->along && d < 2*n; ++d)
-            z[d] = lagrangian_number(creal(z[d]), (lagrangian_real)a->along[d]*LAGRANGIAN__STEP);
+        for (int i = 0; a->along && i < 2*n; ++i)
+            z[1 + i] = lagrangian_number(creal(z[1 + i]), (lagrangian_real)a->along[i]*LAGRANGIAN__STEP);
         int d = a->along ? to : from;
         number y;
         do {
             const lagrangian_real at = d < to ? creal(z[d]) : 0;
             if (d < to) z[d] = lagrangian_number(at, LAGRANGIAN__STEP);
-            y = F(x->t[k], z, z + n, a->user);
+            for (int r = 0; r < rows && timed; ++r) row[r] = 0;
+            y = F(timed ? z[0] : (number)x->t[k], z + 1, z + w, row, a->user);
             if (d >= to) break;
             z[d] = at;
-            if (d < n) a->by_q[d*R + k] += lagrangian_slope_of(y, a, by);
-            else a->by_w[(d - n)*a->apart + k] += lagrangian_slope_of(y, a, by);
+            for (int r = 0; r < rows; ++r) {
+                gvi_real *slope = timed && d == 0 ? a->by_t + r*R : d < w ? a->by_q + (r*n + d - 1)*R : a->by_w + (r*n + d - w)*a->apart;
+                slope[k] += lagrangian_slope_of(r ? row[r] : y, a, by);
+            }
         } while (++d < to);
         if (a->along) a->by_along[k] += lagrangian_slope_of(y, a, by);
-        if (a->value) a->value[k] += (gvi_real)(a->scale*creal(y));
+        for (int r = 0; r < rows && a->value; ++r) a->value[r*R + k] += (gvi_real)(a->scale*creal(r ? row[r] : y));
     }
 }
 
-#define LAGRANGIAN__DECLARE(name, n)                                                            \
-    LAGRANGIAN__INLINE number name##_at(number t, const number *q, const number *w, const void *user); \
-    LAGRANGIAN__PLAIN static void name##_add(const lagrangian_wanted *lagrangian_w)             \
+/* leave: `return` where name_at returns its one row */
+#define LAGRANGIAN__DECLARE(name, n, rows, timed, type, leave)                                  \
+    LAGRANGIAN__INLINE type name##_at(number, const number *, const number *, number *, const void *); \
+    LAGRANGIAN__INLINE number name##_rows(number lagrangian_t, const number *lagrangian_q, const number *lagrangian_w, \
+                                          number *lagrangian_row, const void *lagrangian_user)  \
     {                                                                                           \
-        number lagrangian_z[2*(n)];                                                             \
-        lagrangian_add(name##_at, n, lagrangian_z, lagrangian_w);                               \
-    }
-#define LAGRANGIAN__BODY(name, w)                                                               \
-    LAGRANGIAN__INLINE number name##_at(LAGRANGIAN__UNUSED number t, LAGRANGIAN__UNUSED const number *q, \
-                                        LAGRANGIAN__UNUSED const number *w, LAGRANGIAN__UNUSED const void *user)
-
-typedef void lagrangian_rows_body(number t, const number *q, const number *v, number *row, const void *user);
-
-/* z[2n + m]: q, w and the rows */
-static inline void lagrangian_rows_add(lagrangian_rows_body *F, int n, int m, number *z, number time,
-                                            const lagrangian_real *q, const lagrangian_real *w, int by,
-                                            lagrangian_real *values, lagrangian_real *slopes, const void *user)
-{
-    number *row = z + 2*n, *seed = by == LAGRANGIAN__BY_V ? z + n : z;
-    for (int i = 0; i < n; ++i) {
-        z[i] = q[i];
-        z[n + i] = w ? w[i] : 0;
-    }
-    const int to = by == LAGRANGIAN__BY_V ? n : n + 1;
-    for (int d = by ? 0 : n; d < to; ++d) {
-        number *x = d < n ? seed + d : &time;
-        const number at = *x;
-        if (by) *x = lagrangian_number(creal(at), LAGRANGIAN__STEP);
-        for (int a = 0; a < m; ++a) row[a] = 0;
-        F(time, z, z + n, row, user);
-        *x = at;
-        for (int a = 0; a < m; ++a) {
-            values[a] = creal(row[a]);
-            if (by) slopes[a*(n + 1) + d] = cimag(row[a])/LAGRANGIAN__STEP;
-        }
-    }
-}
-
-#define LAGRANGIAN__ROWS(name, n, m)                                                            \
-    static inline void name##_at(number t, const number *q, const number *v, number *row, const void *user); \
-    static void name##_rows(lagrangian_real t, const lagrangian_real *q, const lagrangian_real *v, int lagrangian_by, \
-                            lagrangian_real *row, lagrangian_real *lagrangian_slopes, const void *user) \
+        leave name##_at(lagrangian_t, lagrangian_q, lagrangian_w, lagrangian_row, lagrangian_user); \
+        return lagrangian_row[0];                                                               \
+    }                                                                                           \
+    LAGRANGIAN__PLAIN static void name##_add(const lagrangian_wanted *lagrangian_a)             \
     {                                                                                           \
-        number lagrangian_z[2*(n) + (m)];                                                       \
-        lagrangian_rows_add(name##_at, n, m, lagrangian_z, t, q, v, lagrangian_by, row, lagrangian_slopes, user); \
+        number lagrangian_z[2*(n) + 1 + (rows)];                                                \
+        lagrangian_add(name##_rows, n, rows, timed, lagrangian_z, lagrangian_a);                \
     }
-#define LAGRANGIAN__ROWS_BODY(name)                                                             \
-    static inline void name##_at(LAGRANGIAN__UNUSED number t, LAGRANGIAN__UNUSED const number *q, \
-                                      LAGRANGIAN__UNUSED const number *v, number *row,          \
+#define LAGRANGIAN__BODY(name, type, w, row)                                                    \
+    LAGRANGIAN__INLINE type name##_at(LAGRANGIAN__UNUSED number t, LAGRANGIAN__UNUSED const number *q, \
+                                      LAGRANGIAN__UNUSED const number *w, LAGRANGIAN__UNUSED number *row, \
                                       LAGRANGIAN__UNUSED const void *user)
 
 #else
@@ -429,8 +400,8 @@ template <int N> struct lagrangian_dual {
     LAGRANGIAN__OF_TWO(LAGRANGIAN__NUMBERS)
 };
 
-/* Derivatives in one evaluation: by q at rest, by q, by w, by both, along a direction; the value in any case. */
-enum { LAGRANGIAN__REST, LAGRANGIAN__Q, LAGRANGIAN__W, LAGRANGIAN__BOTH, LAGRANGIAN__ALONG };
+/* Derivatives in one evaluation: by q at rest, by q, by w, by both, by q and t, along a direction; the value in any case. */
+enum { LAGRANGIAN__REST, LAGRANGIAN__Q, LAGRANGIAN__W, LAGRANGIAN__BOTH, LAGRANGIAN__Q_T, LAGRANGIAN__ALONG };
 
 /* gcc: loops over derivatives in line, as with -O3 */
 #if defined(__GNUC__) && !defined(__clang__)
@@ -445,17 +416,18 @@ inline gvi_real lagrangian_slope_of(lagrangian_real value, lagrangian_real slope
     return (gvi_real)(a->scale*slope);
 }
 
-template <class F, int n, int what> LAGRANGIAN__UNROLLED inline void lagrangian_add(const lagrangian_wanted *wanted)
+template <class F, int n, int rows, int what> LAGRANGIAN__UNROLLED inline void lagrangian_add(const lagrangian_wanted *wanted)
 {
     const lagrangian_wanted own = *wanted, *a = &own;         // which no output overlaps
-    enum { along = what == LAGRANGIAN__ALONG, by_q = what != LAGRANGIAN__W && !along,
+    enum { along = what == LAGRANGIAN__ALONG, by_q = what != LAGRANGIAN__W && !along, by_t = what == LAGRANGIAN__Q_T,
            by_w = what == LAGRANGIAN__W || what == LAGRANGIAN__BOTH, w_at = by_q ? n : 0 };
-    typedef lagrangian_dual<along ? 1 : by_q && by_w ? 2*n : n> number;
+    typedef lagrangian_dual<along ? 1 : by_q && by_w ? 2*n : n + by_t> number;
     const gvi_points *x = a->x;
     const int R = x->stride;
     for (int k = 0; k < x->count; ++k) {
-        number q[n], w[n];
+        number t((lagrangian_real)x->t[k]), q[n], w[n], row[rows];
         if (lagrangian_rests(a, k)) continue;
+        if (by_t) t.d[by_t ? n : 0] = 1;
         for (int i = 0; i < n; ++i) {
             q[i].value = (lagrangian_real)x->q[i*R + k];
             if (what != LAGRANGIAN__REST) w[i].value = a->w ? a->times*(lagrangian_real)a->w[i*R + k] : i == a->one ? a->times : 0;
@@ -463,95 +435,76 @@ template <class F, int n, int what> LAGRANGIAN__UNROLLED inline void lagrangian_
             if (by_w) w[i].d[w_at + i] = 1;
             if (along && a->along) q[i].d[0] = (lagrangian_real)a->along[i], w[i].d[0] = (lagrangian_real)a->along[n + i];
         }
-        const number L = F().template at<number>(number((lagrangian_real)x->t[k]), q, w, a->user);
-        if (along && a->along) a->by_along[k] += lagrangian_slope_of(L.value, L.d[0], a);
-        for (int i = 0; i < n && by_q && a->by_q; ++i) a->by_q[i*R + k] += lagrangian_slope_of(L.value, L.d[i], a);
-        for (int i = a->first; i < a->end && by_w; ++i) a->by_w[i*a->apart + k] += lagrangian_slope_of(L.value, L.d[w_at + i], a);
-        if (a->value) a->value[k] += (gvi_real)(a->scale*L.value);
+        const number first = F().rows(t, q, w, row, a->user);
+        if (along && a->along) a->by_along[k] += lagrangian_slope_of(first.value, first.d[0], a);
+        for (int r = 0; r < rows; ++r) {
+            const number &y = r ? row[r] : first;
+            if (by_t) a->by_t[r*R + k] += lagrangian_slope_of(y.value, y.d[by_t ? n : 0], a);
+            for (int i = 0; i < n && by_q; ++i) a->by_q[(r*n + i)*R + k] += lagrangian_slope_of(y.value, y.d[i], a);
+            for (int i = a->first; i < a->end && by_w; ++i)
+                a->by_w[(r*n + i)*a->apart + k] += lagrangian_slope_of(y.value, y.d[w_at + i], a);
+            if (a->value) a->value[r*R + k] += (gvi_real)(a->scale*y.value);
+        }
     }
 }
 
-template <class F, int n> inline void lagrangian_any(const lagrangian_wanted *a)
+template <class F, int n, int rows> inline void lagrangian_any(const lagrangian_wanted *a)
 {
-    if (a->along || !(a->by_q || a->by_w)) lagrangian_add<F, n, LAGRANGIAN__ALONG>(a);
-    else if (a->by_q && a->by_w) lagrangian_add<F, n, LAGRANGIAN__BOTH>(a);
-    else if (a->by_w) lagrangian_add<F, n, LAGRANGIAN__W>(a);
-    else if (a->w || a->one >= 0) lagrangian_add<F, n, LAGRANGIAN__Q>(a);
-    else lagrangian_add<F, n, LAGRANGIAN__REST>(a);
+    if (a->along || !(a->by_q || a->by_w)) lagrangian_add<F, n, rows, LAGRANGIAN__ALONG>(a);
+    else if (a->by_t) lagrangian_add<F, n, rows, LAGRANGIAN__Q_T>(a);
+    else if (a->by_q && a->by_w) lagrangian_add<F, n, rows, LAGRANGIAN__BOTH>(a);
+    else if (a->by_w) lagrangian_add<F, n, rows, LAGRANGIAN__W>(a);
+    else if (a->w || a->one >= 0) lagrangian_add<F, n, rows, LAGRANGIAN__Q>(a);
+    else lagrangian_add<F, n, rows, LAGRANGIAN__REST>(a);
 }
 
-#define LAGRANGIAN__DECLARE(name, n)                                                            \
+/* leave: `return` where `at` returns its one row */
+#define LAGRANGIAN__DECLARE(name, n, rows_, timed, type, leave)                                 \
     struct name##_body {                                                                        \
-        template <class number> number at(number t, const number *q, const number *w, const void *user) const; \
+        template <class number> type at(number, const number *, const number *, number *, const void *) const; \
+        template <class number> LAGRANGIAN__UNROLLED LAGRANGIAN__ALWAYS                         \
+        number rows(number lagrangian_t, const number *lagrangian_q, const number *lagrangian_w, \
+                    number *lagrangian_row, const void *lagrangian_user) const                  \
+        {                                                                                       \
+            leave at(lagrangian_t, lagrangian_q, lagrangian_w, lagrangian_row, lagrangian_user); \
+            return lagrangian_row[0];                                                           \
+        }                                                                                       \
     };                                                                                          \
-    static void name##_add(const lagrangian_wanted *lagrangian_w) { lagrangian_any<name##_body, n>(lagrangian_w); }
-#define LAGRANGIAN__BODY(name, w)                                                               \
+    static void name##_add(const lagrangian_wanted *lagrangian_a) { lagrangian_any<name##_body, n, rows_>(lagrangian_a); }
+#define LAGRANGIAN__BODY(name, type, w, row)                                                    \
     template <class number>                                                                     \
-    LAGRANGIAN__UNROLLED LAGRANGIAN__ALWAYS inline number name##_body::at(                      \
+    LAGRANGIAN__UNROLLED LAGRANGIAN__ALWAYS inline type name##_body::at(                        \
         LAGRANGIAN__UNUSED number t, LAGRANGIAN__UNUSED const number *q,                        \
-        LAGRANGIAN__UNUSED const number *w, LAGRANGIAN__UNUSED const void *user) const
-
-template <class F, int n, int m>
-inline void lagrangian_rows_add(lagrangian_real t, const lagrangian_real *q, const lagrangian_real *w, int by,
-                                lagrangian_real *values, lagrangian_real *slopes, const void *user)
-{
-    typedef lagrangian_dual<n + 1> number;
-    number z[2*n], row[m], time(t);
-    for (int i = 0; i < n; ++i) {
-        z[i] = q[i];
-        z[n + i] = w ? w[i] : 0;
-        if (by) z[by == LAGRANGIAN__BY_V ? n + i : i].d[i] = 1;
-    }
-    if (by) time.d[n] = 1;
-    F().template at<number>(time, z, z + n, row, user);
-    for (int a = 0; a < m; ++a) {
-        values[a] = row[a].value;
-        for (int d = 0; d <= n && by; ++d) slopes[a*(n + 1) + d] = row[a].d[d];
-    }
-}
-
-#define LAGRANGIAN__ROWS(name, n, m)                                                            \
-    struct name##_body {                                                                        \
-        template <class number> void at(number t, const number *q, const number *v, number *row, const void *user) const; \
-    };                                                                                          \
-    static void name##_rows(lagrangian_real t, const lagrangian_real *q, const lagrangian_real *v, int lagrangian_by, \
-                            lagrangian_real *row, lagrangian_real *lagrangian_slopes, const void *user) \
-    {                                                                                           \
-        lagrangian_rows_add<name##_body, n, m>(t, q, v, lagrangian_by, row, lagrangian_slopes, user); \
-    }
-#define LAGRANGIAN__ROWS_BODY(name)                                                             \
-    template <class number>                                                                     \
-    LAGRANGIAN__ALWAYS inline void name##_body::at(                                             \
-        LAGRANGIAN__UNUSED number t, LAGRANGIAN__UNUSED const number *q,                        \
-        LAGRANGIAN__UNUSED const number *v, number *row, LAGRANGIAN__UNUSED const void *user) const
+        LAGRANGIAN__UNUSED const number *w, LAGRANGIAN__UNUSED number *row, LAGRANGIAN__UNUSED const void *user) const
 #endif
 
 #define LAGRANGIAN__FUNCTION(name, n, w)                                                        \
-    LAGRANGIAN__DECLARE(name, n)                                                                \
-    static const lagrangian_function name = { n, name##_add };                                  \
-    LAGRANGIAN__BODY(name, w)
+    LAGRANGIAN__DECLARE(name, n, 1, 0, number, return)                                          \
+    static const lagrangian_function name = { n, name##_add, 1 };                               \
+    LAGRANGIAN__BODY(name, number, w, lagrangian_row)
 #define LAGRANGIAN(name, n) LAGRANGIAN__FUNCTION(name, n, v)
 #define HAMILTONIAN(name, n) LAGRANGIAN__FUNCTION(name, n, p)
 
-#define LAGRANGIAN__ROW(name, n, m, rows)                                                       \
-    LAGRANGIAN__ROWS(name, n, m)                                                                \
+#define LAGRANGIAN__ROWS(name, n, m, fill)                                                      \
+    LAGRANGIAN__DECLARE(name, n, m, 1, void, )                                                  \
     static int name(const gvi_points *lagrangian_x, void *user)                                 \
     {                                                                                           \
-        lagrangian_real lagrangian_room[4*(n) + (m)*((n) + 4)];                                 \
-        return rows(name##_rows, n, m, lagrangian_room, lagrangian_x, user);                    \
+        const lagrangian_function lagrangian_f = { n, name##_add, m };                          \
+        gvi_real lagrangian_room[4*(n) + 2*(m)];                                                \
+        return fill(&lagrangian_f, lagrangian_room, lagrangian_x, user);                        \
     }                                                                                           \
-    LAGRANGIAN__ROWS_BODY(name)
-#define HOLDS(name, n, m) LAGRANGIAN__ROW(name, n, m, lagrangian_holds)
-#define ROLLS(name, n, m) LAGRANGIAN__ROW(name, n, m, lagrangian_rolls)
+    LAGRANGIAN__BODY(name, void, v, row)
+#define HOLDS(name, n, m) LAGRANGIAN__ROWS(name, n, m, lagrangian_holds)
+#define ROLLS(name, n, m) LAGRANGIAN__ROWS(name, n, m, lagrangian_rolls)
 
 #define DISSIPATION(name, n)                                                                    \
-    LAGRANGIAN__DECLARE(name, n)                                                                \
+    LAGRANGIAN__DECLARE(name, n, 1, 0, number, return)                                          \
     static int name(const gvi_points *lagrangian_x, void *user)                                 \
     {                                                                                           \
-        const lagrangian_function lagrangian_f = { n, name##_add };                             \
+        const lagrangian_function lagrangian_f = { n, name##_add, 1 };                          \
         return lagrangian_dissipates(&lagrangian_f, lagrangian_x, user);                        \
     }                                                                                           \
-    LAGRANGIAN__BODY(name, v)
+    LAGRANGIAN__BODY(name, number, v, lagrangian_row)
 
 /* ------------------------------------------------------------- F at one point */
 
@@ -612,7 +565,7 @@ static inline gvi_real lagrangian_decade(unsigned *seed, int most)
     return x;
 }
 
-static inline gvi_points lagrangian_point(int n, const gvi_real *t, const gvi_real *q)
+LAGRANGIAN__INLINE gvi_points lagrangian_point(int n, const gvi_real *t, const gvi_real *q)
 {
     gvi_points x;
     memset(&x, 0, sizeof x);
@@ -624,7 +577,7 @@ static inline gvi_points lagrangian_point(int n, const gvi_real *t, const gvi_re
 }
 
 /* Nothing yet, of F at w, or with w NULL at rest */
-static inline lagrangian_wanted lagrangian_want(const void *user, const gvi_points *x, const gvi_real *w, lagrangian_real scale)
+LAGRANGIAN__INLINE lagrangian_wanted lagrangian_want(const void *user, const gvi_points *x, const gvi_real *w, lagrangian_real scale)
 {
     lagrangian_wanted a;
     memset(&a, 0, sizeof a);
@@ -665,33 +618,63 @@ static inline gvi_real lagrangian_at(const lagrangian_function *F, const void *u
     return value;
 }
 
-/* The derivative in a direction [2n] at q and `times` w, over `times` */
+/* The derivative in a direction [2n] */
 static inline gvi_real lagrangian_along(const lagrangian_function *F, const void *user, gvi_real t, const gvi_real *q,
-                                        const gvi_real *w, lagrangian_real times, const gvi_real *direction)
+                                        const gvi_real *w, const gvi_real *direction)
 {
     const gvi_points x = lagrangian_point(F->n, &t, q);
     lagrangian_wanted a = lagrangian_want(user, &x, w, 1);
     gvi_real slope = 0;
-    a.times = times;
-    a.scale = 1/times;
     a.along = direction;
     a.by_along = &slope;
     F->add(&a);
     return slope;
 }
 
-/* ... by number d of q and w */
+/* dF/dw_i at `times` w, over `times` */
 static inline gvi_real lagrangian_slope(const lagrangian_function *F, const void *user, gvi_real t, const gvi_real *q,
-                                        const gvi_real *w, lagrangian_real times, int d)
+                                        const gvi_real *w, lagrangian_real times, int i)
 {
-    gvi_real direction[2*LAGRANGIAN_MOST] = { 0 };
-    direction[d] = 1;
-    return lagrangian_along(F, user, t, q, w, times, direction);
+    const gvi_points x = lagrangian_point(F->n, &t, q);
+    lagrangian_wanted a = lagrangian_want(user, &x, w, 1);
+    gvi_real slope = 0;
+    a.times = times;
+    a.scale = 1/times;
+    a.first = i;
+    a.end = i + 1;
+    a.apart = 0;
+    a.by_w = &slope;
+    F->add(&a);
+    return slope;
 }
 
 /* ----------------------------------------------------------------- differences */
 
-typedef gvi_real lagrangian_curve(const void *of, gvi_real s);
+/* Row `row` of F at s from (t, q, w), of which `direction` [2n] tells how q and w go.  Room: at [2n], values [rows] */
+typedef struct lagrangian_line {
+    const lagrangian_function *F;
+    const void                *user;
+    gvi_real                   t, dt;
+    const gvi_real            *q, *w, *direction;
+    gvi_real                  *at, *values;
+    int                        row;
+} lagrangian_line;
+
+static inline gvi_real lagrangian_on_line(const lagrangian_line *l, gvi_real s)
+{
+    const int n = l->F->n;
+    for (int i = 0; i < n; ++i) {
+        l->at[i] = l->q[i] + s*l->direction[i];
+        l->at[n + i] = l->w ? l->w[i] + s*l->direction[n + i] : 0;
+    }
+    const gvi_real t = l->t + s*l->dt;
+    const gvi_points x = lagrangian_point(n, &t, l->at);
+    lagrangian_wanted a = lagrangian_want(l->user, &x, l->at + n, 1);
+    for (int r = 0; r < l->F->rows; ++r) l->values[r] = 0;
+    a.value = l->values;
+    l->F->add(&a);
+    return l->values[l->row];
+}
 
 /* Nine places, at uneven distances: on a lattice rounding may look smooth. */
 static const double lagrangian_places[9] = { -4, -2.87, -2.21, -0.92, 0.29, 0.83, 2.05, 2.7, 4.2 };
@@ -713,20 +696,20 @@ static inline gvi_real lagrangian_noise(const gvi_real *y)
     return most;
 }
 
-/* df/ds at 0, from central differences, each of half the width of the one before, by one of Richardson's
+/* d/ds of F on the line at 0, from central differences, each of half the width of the one before, by one of Richardson's
    extrapolations: the one that agrees best with the two before it, unless a narrower one contradicts it.
-   rounding: of f because of that of its arguments.  error < 0: there are none. */
-static inline gvi_real lagrangian_difference(lagrangian_curve *f, const void *of, gvi_real size, gvi_real rounding, gvi_real *error)
+   rounding: of F because of that of its arguments.  error < 0: there are none. */
+static inline gvi_real lagrangian_difference(const lagrangian_line *l, gvi_real size, gvi_real rounding, gvi_real *error)
 {
     const gvi_real apart = GVI_SQRT(lagrangian_eps())/16*size;
     gvi_real near_by[9], best = 0, width = size/8, row[2] = { 0, 0 }, before = 0;
     int rows = 0;
-    for (int k = 0; k < 9; ++k) near_by[k] = f(of, (gvi_real)lagrangian_places[k]*apart);
+    for (int k = 0; k < 9; ++k) near_by[k] = lagrangian_on_line(l, (gvi_real)lagrangian_places[k]*apart);
     const gvi_real noise = lagrangian_noise(near_by), grain = rounding + (lagrangian_finite(1, &noise) ? noise : 0);
 
     *error = -1;
     for (int k = 0; k < 40; ++k, width /= 2) {
-        const gvi_real up = f(of, width), down = f(of, -width), first = (up - down)/(2*width),
+        const gvi_real up = lagrangian_on_line(l, width), down = lagrangian_on_line(l, -width), first = (up - down)/(2*width),
                        rough = (4*lagrangian_eps()*lagrangian_size(up) + grain)/width;
         if (!lagrangian_finite(1, &first)) continue;
         const gvi_real second = first + (first - row[0])/3, change = lagrangian_size(second - row[1]),
@@ -743,28 +726,6 @@ static inline gvi_real lagrangian_difference(lagrangian_curve *f, const void *of
     return best;
 }
 
-/* F, or its derivative by w_p, at (q, w) + s times a direction */
-struct lagrangian__line {
-    const lagrangian_function *F;
-    const void                *user;
-    gvi_real                   t;
-    const gvi_real            *q, *w, *direction;
-    int                        p;     /* -1: F                                  */
-};
-
-static inline gvi_real lagrangian_on_line(const void *of, gvi_real s)
-{
-    const struct lagrangian__line *l = (const struct lagrangian__line *)of;
-    const int n = l->F->n;
-    gvi_real q[LAGRANGIAN_MOST], w[LAGRANGIAN_MOST];
-    for (int i = 0; i < n; ++i) {
-        q[i] = l->q[i] + s*l->direction[i];
-        w[i] = l->w[i] + s*l->direction[n + i];
-    }
-    if (l->p < 0) return lagrangian_at(l->F, l->user, l->t, q, w, NULL, NULL);
-    return lagrangian_slope(l->F, l->user, l->t, q, w, 1, n + l->p);
-}
-
 /* A derivative by numbers against one by differences that is right up to `error`: by chance two widths may agree
    to several digits, so that what is less than 1/4096 of the whole counts as right. */
 static inline int lagrangian_apart(gvi_real by_numbers, gvi_real right, gvi_real error)
@@ -773,114 +734,110 @@ static inline int lagrangian_apart(gvi_real by_numbers, gvi_real right, gvi_real
     return error >= 0 && lagrangian_size(by_numbers - right) > bound;
 }
 
-/* At first glance: one difference.  It is off where f bends as well; then lagrangian_difference has to be asked. */
-static inline int lagrangian_seems_apart(lagrangian_curve *f, const void *of, gvi_real by_numbers)
+/* At first glance: one difference.  It is off where F bends as well; then lagrangian_difference has to be asked. */
+static inline int lagrangian_seems_apart(const lagrangian_line *l, gvi_real by_numbers)
 {
-    const gvi_real width = (gvi_real)(1/64.0), up = f(of, width), down = f(of, -width), D = (up - down)/(2*width);
+    const gvi_real width = (gvi_real)(1/64.0), up = lagrangian_on_line(l, width), down = lagrangian_on_line(l, -width),
+                   D = (up - down)/(2*width);
     return lagrangian_size(D - by_numbers) > (lagrangian_size(D) + lagrangian_size(by_numbers))/1024
                                              + 16*lagrangian_eps()*(lagrangian_size(up) + lagrangian_size(down))/width;
 }
 
-
-/* Does the derivative along the line differ from differences? */
-static inline int lagrangian_loses_on(const struct lagrangian__line *l)
+/* Does the derivative of F along the line differ from differences? */
+static inline int lagrangian_loses_on(const lagrangian_line *l)
 {
     const int n = l->F->n;
-    const gvi_real slope = lagrangian_along(l->F, l->user, l->t, l->q, l->w, 1, l->direction);
+    const gvi_real slope = lagrangian_along(l->F, l->user, l->t, l->q, l->w, l->direction);
     gvi_real g[2*LAGRANGIAN_MOST], rounding = 0, error;
-    if (!lagrangian_seems_apart(lagrangian_on_line, l, slope)) return 0;
+    if (!lagrangian_seems_apart(l, slope)) return 0;
     lagrangian_at(l->F, l->user, l->t, l->q, l->w, g, g + n);
     for (int d = 0; d < 2*n; ++d) rounding += lagrangian_size(g[d]*(d < n ? l->q[d] : l->w[d - n]));
-    const gvi_real right = lagrangian_difference(lagrangian_on_line, l, 1, lagrangian_eps()*rounding, &error);
+    const gvi_real right = lagrangian_difference(l, 1, lagrangian_eps()*rounding, &error);
     return lagrangian_apart(slope, right, error);
 }
 
 /* ------------------------------------------------------------------------ rows */
 
-/* Row a at the first point and s times the way to the second */
-struct lagrangian__row {
-    lagrangian_rows       *rows;
-    int                    n, a;
-    lagrangian_real        t, dt, *q, *dq, *at, *values;
-    const void            *user;
-};
-
-static inline gvi_real lagrangian_on_row(const void *of, gvi_real s)
+/* On the way from the first point to the second */
+static inline int lagrangian_rows_lose(const lagrangian_function *rows, gvi_real *room, const gvi_points *x, const void *user)
 {
-    const struct lagrangian__row *r = (const struct lagrangian__row *)of;
-    for (int i = 0; i < r->n; ++i) r->at[i] = r->q[i] + (lagrangian_real)s*r->dq[i];
-    r->rows(r->t + (lagrangian_real)s*r->dt, r->at, NULL, LAGRANGIAN__VALUES, r->values, NULL, r->user);
-    return (gvi_real)r->values[r->a];
-}
-
-static inline int lagrangian_row_has_lost(struct lagrangian__row *r, int m, const gvi_points *x)
-{
-    const int n = r->n, R = x->stride;
-    r->t = (lagrangian_real)x->t[0];
-    r->dt = (lagrangian_real)x->t[1] - r->t;
+    const int n = x->n, R = x->stride;
+    gvi_real *q = room, *dq = q + n, *at = dq + n;
+    lagrangian_line line = { rows, user, x->t[0], x->t[1] - x->t[0], q, NULL, dq, at, at + 2*n, 0 };
     for (int i = 0; i < n; ++i) {
-        r->q[i] = (lagrangian_real)x->q[i*R];
-        r->dq[i] = (lagrangian_real)x->q[i*R + 1] - r->q[i];
+        q[i] = x->q[i*R];
+        dq[i] = x->q[i*R + 1] - q[i];
     }
-    for (r->a = 0; r->a < m; ++r->a) {
-        const gvi_real rate = x->rate[r->a*R];
-        gvi_real slope = rate*(gvi_real)r->dt, rounding = lagrangian_size(rate*x->t[0]), error;
+    for (; line.row < rows->rows; ++line.row) {
+        const gvi_real rate = x->rate[line.row*R];
+        gvi_real slope = rate*line.dt, rounding = lagrangian_size(rate*line.t), error;
         for (int i = 0; i < n; ++i) {
-            const gvi_real G = x->jacobian[(r->a*n + i)*R];
-            slope += G*(gvi_real)r->dq[i];
-            rounding += lagrangian_size(G*x->q[i*R]);
+            const gvi_real G = x->jacobian[(line.row*n + i)*R];
+            slope += G*dq[i];
+            rounding += lagrangian_size(G*q[i]);
         }
-        if (!lagrangian_seems_apart(lagrangian_on_row, r, slope)) continue;
-        const gvi_real right = lagrangian_difference(lagrangian_on_row, r, 1, lagrangian_eps()*rounding, &error);
+        if (!lagrangian_seems_apart(&line, slope)) continue;
+        const gvi_real right = lagrangian_difference(&line, 1, lagrangian_eps()*rounding, &error);
         if (lagrangian_apart(slope, right, error)) return 1;
     }
     return 0;
 }
 
-/* g(t,q), dg/dq and dg/dt */
-static inline int lagrangian_holds(lagrangian_rows *rows, int n, int m, lagrangian_real *room, const gvi_points *x, void *user)
+static inline void lagrangian_clear(int count, gvi_real *x)
 {
-    lagrangian_real *q = room, *values = room + 4*n, *slopes = values + 3*m;
-    struct lagrangian__row r = { rows, n, 0, 0, 0, q, q + n, q + 2*n, values, user };
-    if (x->n != n || !x->g) return gvi_fail(x, "HOLDS is of another n than the scene, or .kind is not GVI_CONSTRAINT");
-    for (int k = 0; k < x->count; ++k) {
-        for (int i = 0; i < n; ++i) q[i] = (lagrangian_real)x->q[i*x->stride + k];
-        rows((lagrangian_real)x->t[k], q, NULL, LAGRANGIAN__BY_Q, values, slopes, user);
-        for (int a = 0; a < m; ++a) {
-            x->g[a*x->stride + k] = (gvi_real)values[a];
-            x->rate[a*x->stride + k] = (gvi_real)slopes[a*(n + 1) + n];
-            for (int i = 0; i < n; ++i) x->jacobian[(a*n + i)*x->stride + k] = (gvi_real)slopes[a*(n + 1) + i];
-        }
-    }
-    if (LAGRANGIAN__LOSES && x->count >= 4 && lagrangian_row_has_lost(&r, m, x))
-        return gvi_fail(x, "a row of HOLDS has lost a derivative: is a variable in it a double that has to be a number?");
-    return 0;
+    for (int i = 0; i < count; ++i) x[i] = 0;
 }
 
-/* A(t,q) and a(t,q) of the row A v + a, which has to be that at a huge v, too */
-static inline int lagrangian_rolls(lagrangian_rows *rows, int n, int m, lagrangian_real *room, const gvi_points *x, void *user)
+/* g(t,q), dg/dq and dg/dt */
+static inline int lagrangian_holds(const lagrangian_function *rows, gvi_real *room, const gvi_points *x, void *user)
 {
-    lagrangian_real *q = room, *w = q + n, *values = room + 4*n, *slopes = values + 3*m;
-    int wrong = 0;
-    if (x->n != n || !x->jacobian) return gvi_fail(x, "ROLLS is of another n than the scene, or .kind is not GVI_NONHOLONOMIC");
-    for (int i = 0; i < n; ++i) w[i] = LAGRANGIAN__HUGE*(1 + (lagrangian_real)((i*5)%7)/8);
-    for (int k = 0; k < x->count; ++k) {
-        for (int i = 0; i < n; ++i) q[i] = (lagrangian_real)x->q[i*x->stride + k];
-        rows((lagrangian_real)x->t[k], q, NULL, LAGRANGIAN__BY_V, values, slopes, user);
-        for (int a = 0; a < m; ++a) x->rate[a*x->stride + k] = (gvi_real)values[a];
-        rows((lagrangian_real)x->t[k], q, w, LAGRANGIAN__VALUES, values, NULL, user);
-        for (int a = 0; a < m; ++a) {
-            lagrangian_real off = values[a]/LAGRANGIAN__HUGE, size = 0;
-            for (int i = 0; i < n; ++i) {
-                const lagrangian_real A = slopes[a*(n + 1) + i], part = A*(w[i]/LAGRANGIAN__HUGE);
-                x->jacobian[(a*n + i)*x->stride + k] = (gvi_real)A;
-                off -= part;
-                size += part < 0 ? -part : part;
-            }
-            wrong |= (off < 0 ? -off : off) > (lagrangian_real)GVI_SQRT(lagrangian_eps())*size;
-        }
+    const int size = rows->rows*x->stride;
+    if (x->n != rows->n || !x->g) return gvi_fail(x, "HOLDS is of another n than the scene, or .kind is not GVI_CONSTRAINT");
+    lagrangian_wanted a = lagrangian_want(user, x, NULL, 1);
+    lagrangian_clear(size, a.value = x->g);
+    lagrangian_clear(size*x->n, a.by_q = x->jacobian);
+    lagrangian_clear(size, a.by_t = x->rate);
+    rows->add(&a);
+    if (!LAGRANGIAN__LOSES || x->count < 4 || !lagrangian_rows_lose(rows, room, x, user)) return 0;
+    return gvi_fail(x, "a row of HOLDS has lost a derivative: is a variable in it a double that has to be a number?");
+}
+
+/* Is row A v + a at the first point that at a huge v, too? */
+static inline int lagrangian_linear(const lagrangian_function *rows, gvi_real *room, const gvi_points *x, const void *user)
+{
+    const int n = x->n, R = x->stride;
+    gvi_real *q = room, *w = q + n, *values = w + n;
+    const gvi_points first = lagrangian_point(n, x->t, q);
+    lagrangian_wanted a = lagrangian_want(user, &first, w, 1/LAGRANGIAN__HUGE);
+    for (int i = 0; i < n; ++i) {
+        q[i] = x->q[i*R];
+        w[i] = 1 + (gvi_real)((i*5)%7)/8;
     }
-    if (!wrong) return 0;
+    a.times = LAGRANGIAN__HUGE;
+    lagrangian_clear(rows->rows, a.value = values);
+    rows->add(&a);
+    for (int r = 0; r < rows->rows; ++r) {
+        gvi_real off = values[r], size = 0;
+        for (int i = 0; i < n; ++i) {
+            const gvi_real part = x->jacobian[(r*n + i)*R]*w[i];
+            off -= part;
+            size += lagrangian_size(part);
+        }
+        if (lagrangian_size(off) > GVI_SQRT(lagrangian_eps())*size) return 0;
+    }
+    return 1;
+}
+
+/* A(t,q) and a(t,q) of the row A v + a */
+static inline int lagrangian_rolls(const lagrangian_function *rows, gvi_real *room, const gvi_points *x, void *user)
+{
+    const int size = rows->rows*x->stride;
+    if (x->n != rows->n || !x->jacobian) return gvi_fail(x, "ROLLS is of another n than the scene, or .kind is not GVI_NONHOLONOMIC");
+    lagrangian_wanted a = lagrangian_want(user, x, NULL, 1);
+    lagrangian_clear(size*x->n, a.by_w = x->jacobian);
+    lagrangian_clear(size, a.value = x->rate);
+    rows->add(&a);
+    if (lagrangian_linear(rows, room, x, user)) return 0;
     return gvi_fail(x, "a row of ROLLS is not linear in v, or has lost a derivative: is a variable in it a double that has to "
                        "be a number?");
 }
@@ -889,7 +846,7 @@ static inline int lagrangian_rolls(lagrangian_rows *rows, int n, int m, lagrangi
 static inline int lagrangian_dissipates(const lagrangian_function *F, const gvi_points *x, void *user)
 {
     const int n = F->n, R = x->stride;
-    gvi_real q[LAGRANGIAN_MOST], w[LAGRANGIAN_MOST], direction[2*LAGRANGIAN_MOST] = { 0 };
+    gvi_real q[LAGRANGIAN_MOST], w[LAGRANGIAN_MOST], direction[2*LAGRANGIAN_MOST] = { 0 }, at[2*LAGRANGIAN_MOST], value;
     if (x->n != n || n > LAGRANGIAN_MOST || !x->v)
         return gvi_fail(x, "DISSIPATION is of another n than the scene, above LAGRANGIAN_MOST, or .kind is not GVI_FORCE");
     lagrangian_wanted a = lagrangian_want(user, x, x->v, -1);
@@ -901,7 +858,7 @@ static inline int lagrangian_dissipates(const lagrangian_function *F, const gvi_
         q[i] = x->q[i*R];
         direction[n + i] = w[i] = x->v[i*R];
     }
-    const struct lagrangian__line line = { F, user, x->t[0], q, w, direction, -1 };
+    const lagrangian_line line = { F, user, x->t[0], 0, q, w, direction, at, &value, 0 };
     if (!lagrangian_loses_on(&line)) return 0;
     return gvi_fail(x, "DISSIPATION has lost a derivative: is a variable in it a double that has to be a number?");
 }
@@ -950,10 +907,10 @@ static inline const char *lagrangian_compare(lagrangian *L, gvi_real t, const gv
     for (int d = 0; d < 2*n; ++d) {
         const gvi_real *z = d < n ? q : w;
         const gvi_real size = lagrangian_scale(n, z, d%n);
-        gvi_real direction[2*LAGRANGIAN_MOST] = { 0 }, error;
+        gvi_real direction[2*LAGRANGIAN_MOST] = { 0 }, at[2*LAGRANGIAN_MOST], value, error;
         direction[d] = 1;
-        const struct lagrangian__line line = { &L->function, L->user, t, q, w, direction, -1 };
-        const gvi_real right = lagrangian_difference(lagrangian_on_line, &line, size, 0, &error);
+        const lagrangian_line line = { &L->function, L->user, t, 0, q, w, direction, at, &value, 0 };
+        const gvi_real right = lagrangian_difference(&line, size, 0, &error);
         if (!lagrangian_apart(g[d], right, error + 4*lagrangian_eps()*lagrangian_largest(2*n, g))) continue;
         snprintf(L->why, sizeof L->why,
                  "d%s/d%s[%d] is %.6g by numbers, %.6g by differences: is a variable in %s a double that has to be a number?",
@@ -973,6 +930,7 @@ static inline const char *lagrangian_begin(lagrangian *L, lagrangian_function fu
     unsigned seed = 7;
     memset(L, 0, sizeof *L);
     L->function = function;
+    L->function.rows = 1;
     L->user = user;
     L->name = name;
     L->of = of;
@@ -1003,64 +961,52 @@ static inline const char *lagrangian_begin(lagrangian *L, lagrangian_function fu
     return NULL;
 }
 
-/* Differences that are 0 if L is of a kind, each with the size of what it is the difference of:
-     A      dL/dv_i at v = 0
-     ENTRY  M_ij at (t,q), less that at the start
-     REST   dL/dv_i at v, less M_i v, where M_ij may vary only if the kind says so, and less dL/dv_i at v = 0 */
-enum { LAGRANGIAN__A, LAGRANGIAN__ENTRY, LAGRANGIAN__REST_OF_P };
-struct lagrangian__test { int what, i, j; lagrangian_kind kind; int all; };    // all: any M_ij may vary, if one may
+/* What is 0 if L is of a kind: dL/dv_i at `times` v, over `times`, less M_i v and, if the kind has one, the linear term.
+   all: any M_ij may vary, if the kind lets one. */
+typedef struct lagrangian_test {
+    int             i;
+    lagrangian_kind kind;
+    lagrangian_real times;
+    int             all;
+} lagrangian_test;
 
 static inline gvi_real lagrangian_entry(const lagrangian *L, gvi_real t, const gvi_real *q, int i, int j)
 {
     gvi_real one[LAGRANGIAN_MOST] = { 0 };
     one[j] = 1;
-    return lagrangian_slope(&L->function, L->user, t, q, one, LAGRANGIAN__HUGE, L->function.n + i);
+    return lagrangian_slope(&L->function, L->user, t, q, one, LAGRANGIAN__HUGE, i);
 }
 
-static inline gvi_real lagrangian_momentum(const lagrangian *L, gvi_real t, const gvi_real *q, const gvi_real *v,
-                                           lagrangian_real times, int i)
+/* `size`: of what it is the difference of */
+static inline gvi_real lagrangian_off(const lagrangian *L, const lagrangian_test *test, gvi_real t, const gvi_real *q,
+                                      const gvi_real *v, gvi_real *size)
 {
-    return lagrangian_slope(&L->function, L->user, t, q, v, times, L->function.n + i);
-}
-
-static inline gvi_real lagrangian_rest_of_p(const lagrangian *L, const struct lagrangian__test *test, gvi_real t,
-                                            const gvi_real *q, const gvi_real *v, gvi_real *size)
-{
-    const int n = L->function.n, i = test->i;
-    gvi_real p = lagrangian_momentum(L, t, q, v, 1, i),
-             a = lagrangian_has(test->kind, LAGRANGIAN__TERM) ? lagrangian_momentum(L, t, q, NULL, 1, i) : 0;
-    if (p <= a && p >= a) {                        // so slow a v that nothing is left of it beside a: at a huge one
-        p = lagrangian_momentum(L, t, q, v, LAGRANGIAN__HUGE, i);
+    const lagrangian_function *F = &L->function;
+    const int n = F->n, i = test->i, huge = test->times > 1;
+    gvi_real p = lagrangian_slope(F, L->user, t, q, v, test->times, i), a = 0;
+    if (huge || lagrangian_has(test->kind, LAGRANGIAN__TERM))       // huge: where there is no mass, the term is all
+        a = (gvi_real)((lagrangian_real)lagrangian_slope(F, L->user, t, q, NULL, 1, i)/test->times);
+    if (!huge && p <= a && p >= a) {               // so slow a v that nothing is left of it beside a: at a huge one
+        p = lagrangian_slope(F, L->user, t, q, v, LAGRANGIAN__HUGE, i);
         a = (gvi_real)((lagrangian_real)a/LAGRANGIAN__HUGE);
     }
     gvi_real off = p - a;
     *size = lagrangian_size(p) + lagrangian_size(a);
     for (int j = 0; j < n; ++j) {
+        const gvi_real vj = v ? v[j] : 0;
+        if (vj <= 0 && vj >= 0) continue;
         const int varies = lagrangian_has(test->kind, LAGRANGIAN__MASS_VARIES) && (test->all || L->varies[i*n + j]);
-        const gvi_real part = (varies ? lagrangian_entry(L, t, q, i, j) : L->M[i*n + j])*v[j];
+        const gvi_real part = (varies ? lagrangian_entry(L, t, q, i, j) : L->M[i*n + j])*vj;
         off -= part;
         *size += lagrangian_size(part);
+        if (huge) *size += 4*GVI_SQRT(lagrangian_size(L->M[i*n + i]))*GVI_SQRT(lagrangian_size(L->M[j*n + j]))*lagrangian_size(vj);
     }
     return off;
 }
 
-static inline gvi_real lagrangian_off(const lagrangian *L, const struct lagrangian__test *test, gvi_real t, const gvi_real *q,
-                                      const gvi_real *v, gvi_real *size)
-{
-    const int n = L->function.n, i = test->i, j = test->j;
-    *size = 0;
-    if (test->what == LAGRANGIAN__A) return lagrangian_momentum(L, t, q, NULL, 1, i);
-    if (test->what == LAGRANGIAN__REST_OF_P) return lagrangian_rest_of_p(L, test, t, q, v, size);
-    const gvi_real a = lagrangian_momentum(L, t, q, NULL, 1, i), was = L->M[i*n + j],     // where there is no mass, a is all
-                   M = lagrangian_entry(L, t, q, i, j) - (gvi_real)((lagrangian_real)a/LAGRANGIAN__HUGE);
-    *size = lagrangian_size(M) + lagrangian_size(was)
-          + 4*GVI_SQRT(lagrangian_size(L->M[i*n + i]))*GVI_SQRT(lagrangian_size(L->M[j*n + j]));
-    return M - was;
-}
-
 /* Is it more than rounding?  Rounding comes and goes as q changes in its last digits, and v by up to a half, where a
    difference keeps its sign and changes smoothly.  What is rounding is left in *grain. */
-static inline int lagrangian_differs(const lagrangian *L, const struct lagrangian__test *test, gvi_real t, const gvi_real *q,
+static inline int lagrangian_differs(const lagrangian *L, const lagrangian_test *test, gvi_real t, const gvi_real *q,
                                      const gvi_real *v, gvi_real *grain)
 {
     const gvi_real eps = lagrangian_eps(), was = grain ? *grain : 0;
@@ -1087,32 +1033,6 @@ static inline int lagrangian_differs(const lagrangian *L, const struct lagrangia
     return 0;
 }
 
-/* d2L/dv2 [n*n] at the start of an L of no special kind; returns how far off it may be, by its own size. */
-static inline gvi_real lagrangian_hessian(const lagrangian *L, gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *H)
-{
-    const int n = L->function.n;
-    gvi_real worst = 0;
-    for (int j = 0; j < n; ++j) {
-        gvi_real direction[2*LAGRANGIAN_MOST] = { 0 }, size = lagrangian_size(v[j]);
-        if (size <= 0) size = lagrangian_largest(n, v);
-        direction[n + j] = 1;
-        for (int i = 0; i < n; ++i) {
-            const struct lagrangian__line line = { &L->function, L->user, t, q, v, direction, i };
-            gvi_real least = -1, width = size > 0 ? size : (gvi_real)1099511627776.0;         // 2^40
-            H[i*n + j] = 0;
-            for (int k = 0; k < (size > 0 ? 1 : 10); ++k, width /= 1024) {   // at rest: of speeds of any size
-                gvi_real error;
-                const gvi_real h = lagrangian_difference(lagrangian_on_line, &line, width, 0, &error);
-                if (error < 0 || lagrangian_size(h) <= 0 || (least >= 0 && !(error < least*lagrangian_size(h)))) continue;
-                H[i*n + j] = h;
-                least = error/lagrangian_size(h);
-            }
-            if (least > worst) worst = least;
-        }
-    }
-    return worst;
-}
-
 /* Linear in q_i, and without v_i: a multiplier? */
 static inline int lagrangian_is_multiplier(const lagrangian *L, gvi_real t, const gvi_real *q, const gvi_real *v, int i)
 {
@@ -1123,28 +1043,31 @@ static inline int lagrangian_is_multiplier(const lagrangian *L, gvi_real t, cons
         x[k] = q[k] + (1 + lagrangian_size(q[k]))*lagrangian_random(&seed)/8;
         w[k] = v[k] + (1 + lagrangian_size(v[k]))*lagrangian_random(&seed)/8;
     }
-    const gvi_real p = lagrangian_momentum(L, t, x, w, 1, i), one = lagrangian_slope(&L->function, L->user, t, x, w, 1, i);
+    gvi_real p[LAGRANGIAN_MOST], one[LAGRANGIAN_MOST], more[LAGRANGIAN_MOST];
+    lagrangian_at(&L->function, L->user, t, x, w, one, p);
     x[i] += 1 + lagrangian_size(x[i]);
-    const gvi_real more = lagrangian_slope(&L->function, L->user, t, x, w, 1, i);
-    return more <= one && more >= one && (one < 0 || one > 0) && lagrangian_size(p) <= 0;
+    lagrangian_at(&L->function, L->user, t, x, w, more, p);
+    return more[i] <= one[i] && more[i] >= one[i] && (one[i] < 0 || one[i] > 0) && lagrangian_size(p[i]) <= 0;
 }
 
-/* Is there kinetic energy in all directions?  H: d2L/dv2 at the start, right to `off`. */
-static inline const char *lagrangian_check_mass(lagrangian *L, gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *H,
-                                                gvi_real off)
+/* Is there kinetic energy in all directions? */
+static inline const char *lagrangian_check_mass(lagrangian *L, gvi_real t, const gvi_real *q, const gvi_real *v)
 {
     const int n = L->function.n;
-    gvi_real pivot[LAGRANGIAN_MOST + 1];
-    if (lagrangian_largest(n*n, H) <= 0)
+    gvi_real H[LAGRANGIAN__MATRIX], pivot[LAGRANGIAN_MOST + 1];
+    const int known = L->kind != LAGRANGIAN_GENERAL;           // else the library finds out
+    if (known && lagrangian_largest(n*n, L->M) <= 0)
         return lagrangian_refuse(L, "%s is linear in %s: its equations are of first order; give H(t,q,p) by HAMILTONIAN", "L", "v", 0);
     for (int i = 0; i < n; ++i) {
-        if (lagrangian_largest(n, H + i*n) > 0) continue;
+        if (known && lagrangian_largest(n, L->M + i*n) > 0) continue;
         if (lagrangian_is_multiplier(L, t, q, v, i))
             return lagrangian_refuse(L, "%s has no kinetic energy in q%s[%d] and is linear in it: is it a multiplier? Leave its term "
                                         "out, and give what it multiplies as a row, by HOLDS (GVI_CONSTRAINT)", "L", "", i);
-        return lagrangian_refuse(L, "%s has no kinetic energy in q%s[%d] at the start", "L", "", i);
+        if (known) return lagrangian_refuse(L, "%s has no kinetic energy in q%s[%d] at the start", "L", "", i);
     }
+    if (!known) return NULL;
 
+    memcpy(H, L->M, sizeof H);
     for (int i = 0; i < n; ++i) {                  // each coordinate in units that make its own mass 1
         const gvi_real own = lagrangian_size(H[i*n + i]), unit = own > 0 ? GVI_SQRT(own) : 1;
         for (int j = 0; j < n; ++j) {
@@ -1152,11 +1075,8 @@ static inline const char *lagrangian_check_mass(lagrangian *L, gvi_real t, const
             H[j*n + i] /= unit;
         }
     }
-    int singular = gvi_lu_factor(n, H, pivot) != GVI_OK;
-    for (int i = 0; i < n && !singular; ++i) singular = lagrangian_size(H[i*n + i]) < 16*off;
-    if (singular)
-        return lagrangian_refuse(L, "%s has no kinetic energy in some direction: d2L/d%s2 is singular at the start", "L", "v", 0);
-    return NULL;
+    if (gvi_lu_factor(n, H, pivot) == GVI_OK) return NULL;
+    return lagrangian_refuse(L, "%s has no kinetic energy in some direction: d2L/d%s2 is singular at the start", "L", "v", 0);
 }
 
 /* Of first degree in v, as a length is: v'dL/dv = L wherever one looks */
@@ -1194,7 +1114,7 @@ static inline lagrangian_kind lagrangian_cover(const lagrangian *L, lagrangian_k
 {
     const int known = (int)L->kind - 1;
     for (int kind = (int)from; kind < (int)LAGRANGIAN_GENERAL; ++kind) {
-        const struct lagrangian__test test = { LAGRANGIAN__REST_OF_P, i, 0, (lagrangian_kind)kind, 1 };
+        const lagrangian_test test = { i, (lagrangian_kind)kind, 1, 1 };
         if (((kind - 1) & known) == known && !lagrangian_differs(L, &test, t, q, v, NULL)) return test.kind;
     }
     return LAGRANGIAN_GENERAL;
@@ -1209,14 +1129,15 @@ static inline void lagrangian_learn(lagrangian *L, gvi_real t, const gvi_real *q
     if (!lagrangian_finite(n, a) || !lagrangian_finite(n, by_q)) return;
     if (lagrangian_largest(n, by_q) > 0) L->reads_q = 1;
     for (int i = 0; i < n; ++i) {
-        const struct lagrangian__test term = { LAGRANGIAN__A, i, 0, L->kind, 0 };
+        const lagrangian_test term = { i, LAGRANGIAN_POTENTIAL, 1, 0 }, entry = { i, LAGRANGIAN_POTENTIAL, LAGRANGIAN__HUGE, 0 };
         if (!lagrangian_has(L->kind, LAGRANGIAN__TERM) && lagrangian_differs(L, &term, t, q, NULL, NULL))
             lagrangian_add_to_kind(L, LAGRANGIAN__TERM);
         for (int j = 0; j <= i; ++j) {
-            const struct lagrangian__test entry = { LAGRANGIAN__ENTRY, i, j, L->kind, 0 };
             const gvi_real M = lagrangian_entry(L, t, q, i, j);
             if (!lagrangian_finite(1, &M)) return;
-            if (L->varies[i*n + j] || !lagrangian_differs(L, &entry, t, q, NULL, NULL)) continue;
+            gvi_real one[LAGRANGIAN_MOST] = { 0 };
+            one[j] = 1;
+            if (L->varies[i*n + j] || !lagrangian_differs(L, &entry, t, q, one, NULL)) continue;
             L->varies[i*n + j] = L->varies[j*n + i] = 1;
             lagrangian_add_to_kind(L, LAGRANGIAN__MASS_VARIES);
         }
@@ -1224,7 +1145,7 @@ static inline void lagrangian_learn(lagrangian *L, gvi_real t, const gvi_real *q
 
     lagrangian_at(&L->function, L->user, t, q, v, NULL, p);
     for (int i = 0; i < n; ++i) {
-        const struct lagrangian__test rest = { LAGRANGIAN__REST_OF_P, i, 0, L->kind, 0 };
+        const lagrangian_test rest = { i, L->kind, 1, 0 };
         const int undefined = !(p[i] <= 0) && !(p[i] > 0);             // as beyond the speed of light
         if (!undefined && (!lagrangian_finite(1, p + i) || !lagrangian_differs(L, &rest, t, q, v, NULL))) continue;
         L->kind = undefined ? LAGRANGIAN_GENERAL : lagrangian_cover(L, L->kind, t, q, v, i);
@@ -1272,7 +1193,7 @@ static inline const char *lagrangian_init(lagrangian *L, lagrangian_function fun
                                           const gvi_real *q, const gvi_real *v)
 {
     const int n = function.n;
-    gvi_real a[LAGRANGIAN_MOST], by_q[LAGRANGIAN_MOST], H[LAGRANGIAN__MATRIX], off = 0;
+    gvi_real a[LAGRANGIAN_MOST], by_q[LAGRANGIAN_MOST];
     if (lagrangian_begin(L, function, user, t, q, v, "L", "v")) return L->why;
     lagrangian_at(&function, user, t, q, NULL, by_q, a);
     lagrangian_first_mass(L, t, q, a);
@@ -1280,15 +1201,10 @@ static inline const char *lagrangian_init(lagrangian *L, lagrangian_function fun
     L->kind = quadratic ? LAGRANGIAN_POTENTIAL : LAGRANGIAN_GENERAL;
     lagrangian_search(L, t, q, v);
 
-    memcpy(H, L->M, sizeof H);
-    if (L->kind == LAGRANGIAN_GENERAL) {
-        if (lagrangian_is_length(L, t, q, v))
-            return lagrangian_refuse(L, "%s is of first degree in %s, as a length is: any speed along the curve would do. Take "
-                                        "half its square, v'g(q)v/2, whose curves are the same", "L", "v", 0);
-        off = lagrangian_hessian(L, t, q, v, H);
-        if (off > (gvi_real)1e-3) off = 0;         // not to be relied on
-    }
-    if (lagrangian_check_mass(L, t, q, v, H, off)) return L->why;
+    if (L->kind == LAGRANGIAN_GENERAL && lagrangian_is_length(L, t, q, v))
+        return lagrangian_refuse(L, "%s is of first degree in %s, as a length is: any speed along the curve would do. Take "
+                                    "half its square, v'g(q)v/2, whose curves are the same", "L", "v", 0);
+    if (lagrangian_check_mass(L, t, q, v)) return L->why;
     L->found = L->kind;
     L->t = t;
     memcpy(L->q, q, (size_t)n*sizeof *q);
@@ -1316,10 +1232,11 @@ static inline const char *lagrangian_text(const lagrangian *L)
 
 /* ------------------------------------------------------------------ the watch
 
-   Is L still what it was found to be?  One dL/dv_i at one point of 32 against what L.kind says, at the v of the step
-   or, where a step makes none, at one that its points show.  Of C every fourth look also compares a
-   derivative with a difference, along the motion.  What is off makes the callback fail, and from then on all points
+   Is L still what it was found to be?  One dL/dv_i at one point of 36 against what L.kind says, at the v of the step
+   or, where a step makes none, at one that its points show.  Of C every fourth look also compares the derivative
+   along the motion with a difference.  What is off makes the callback fail, and from then on all points
    are looked at until none is.                                                 */
+enum { LAGRANGIAN__EVERY = 36 };
 
 static inline int lagrangian_fail(lagrangian *L, const gvi_points *x)
 {
@@ -1329,11 +1246,11 @@ static inline int lagrangian_fail(lagrangian *L, const gvi_points *x)
 
 static inline int lagrangian_is_other(lagrangian *L, gvi_real t, const gvi_real *q, const gvi_real *v, int i)
 {
-    const struct lagrangian__test test = { LAGRANGIAN__REST_OF_P, i, 0, L->kind, 0 };
+    const lagrangian_test test = { i, L->kind, 1, 0 };
     static const char *const names[] = { "", "", "LINEAR", "MASS", "MASS_LINEAR", "GENERAL" };
     gvi_real size;
     if (L->kind == LAGRANGIAN_GENERAL || !lagrangian_differs(L, &test, t, q, v, L->grain + i)) return 0;
-    const gvi_real p = lagrangian_momentum(L, t, q, v, 1, i), off = lagrangian_off(L, &test, t, q, v, &size);
+    const gvi_real p = lagrangian_slope(&L->function, L->user, t, q, v, 1, i), off = lagrangian_off(L, &test, t, q, v, &size);
     snprintf(L->why, sizeof L->why,
              "L is not %s, as it was near the start: at t = %.9g, q[%d] = %.9g, v[%d] = %.9g its dL/dv[%d] is %.15g, not %.15g; "
              "set L.kind = LAGRANGIAN_%s after lagrangian_init",
@@ -1345,7 +1262,8 @@ static inline int lagrangian_is_other(lagrangian *L, gvi_real t, const gvi_real 
 /* `way`: to a neighbour, of q and v */
 static inline int lagrangian_loses(lagrangian *L, gvi_real t, const gvi_real *q, const gvi_real *v, const gvi_real *way)
 {
-    const struct lagrangian__line line = { &L->function, L->user, t, q, v, way, -1 };
+    gvi_real at[2*LAGRANGIAN_MOST], value;
+    const lagrangian_line line = { &L->function, L->user, t, 0, q, v, way, at, &value, 0 };
     if (!lagrangian_loses_on(&line)) return 0;
     if (!lagrangian_compare(L, t, q, v))
         snprintf(L->why, sizeof L->why, "a derivative of %s is lost: is a variable in it a double that has to be a number?", L->name);
@@ -1372,19 +1290,21 @@ static inline int lagrangian_look(lagrangian *L, const gvi_points *x)
     const int n = x->n;
     gvi_real q[LAGRANGIAN_MOST], v[LAGRANGIAN_MOST], way[2*LAGRANGIAN_MOST];
     L->points += x->count > 4 ? x->count : 4;      // explicit steps have one
-    if (!L->alert && L->points < 32) return 0;
+    if (!L->alert && L->points < LAGRANGIAN__EVERY) return 0;
     L->points = 0;
     if (!L->alert) ++L->looks;
 
-    const int one = (L->looks*3)%x->count, from = L->alert ? 0 : one, end = L->alert ? x->count : one + 1;
+    const int one = (L->looks*3)%x->count, from = L->alert ? 0 : one, end = L->alert ? x->count : one + 1,
+              derivatives = LAGRANGIAN__LOSES && (L->alert || L->looks%4 == 0);
     for (int k = from; k < end; ++k) {
         lagrangian_state(L, x, k, q, v, way);
-        if (!lagrangian_finite(n, q) || !lagrangian_finite(n, v)) continue;      // an iterate that went astray
-        if (lagrangian_is_other(L, x->t[k], q, v, L->looks%n)) return lagrangian_fail(L, x);
-        if (LAGRANGIAN__LOSES && (L->alert || L->looks%4 == 0) && lagrangian_loses(L, x->t[k], q, v, way)) return lagrangian_fail(L, x);
-    }
+        const int off = lagrangian_is_other(L, x->t[k], q, v, L->looks%n)
+                        || (derivatives && lagrangian_loses(L, x->t[k], q, v, way));
+        if (off && lagrangian_finite(n, q) && lagrangian_finite(n, v)) return lagrangian_fail(L, x);       // else an iterate
+    }                                                                                                  // went astray
     if (L->alert) --L->alert;
-    L->t = x->t[end - 1];
+    if (x->count > 1) return 0;
+    L->t = x->t[0];
     memcpy(L->q, q, (size_t)n*sizeof *q);
     memcpy(L->v, v, (size_t)n*sizeof *v);
     return 0;
@@ -1397,48 +1317,37 @@ static inline int lagrangian_other_n(const gvi_points *x)
     return gvi_fail(x, "desc.n is not that of LAGRANGIAN or HAMILTONIAN");
 }
 
-/* POTENTIAL, MASS: V = -L(t,q,0) */
-static inline int lagrangian_potential(const gvi_points *x, void *user)
+static inline void lagrangian_less_kinetic(const lagrangian *L, const gvi_points *x)
+{
+    lagrangian_wanted a = lagrangian_want_quadratic(L->user, x, x->v, -1);
+    a.value = x->value;
+    if (L->kind == LAGRANGIAN_MASS_LINEAR) a.by_q = x->f;        // see lagrangian_gradient
+    if (a.by_q || a.value) L->function.add(&a);
+}
+
+/* POTENTIAL, MASS: -V = L(t,q,0).  LINEAR, MASS_LINEAR: L - v'Mv/2.  GENERAL: L */
+static inline int lagrangian_points(const gvi_points *x, void *user)
 {
     lagrangian *L = (lagrangian *)user;
+    const int whole = L->kind == LAGRANGIAN_GENERAL, term = lagrangian_has(L->kind, LAGRANGIAN__TERM) && !whole;
     if (x->n != L->function.n) return lagrangian_other_n(x);
-    lagrangian_wanted a = lagrangian_want(L->user, x, NULL, 1);
+    lagrangian_wanted a = lagrangian_want(L->user, x, whole || term ? x->v : NULL, 1);
     a.by_q = x->f;
-    if (x->f) L->function.add(&a);
+    a.by_w = whole ? x->dldv : NULL;
+    if (a.by_q || a.by_w) L->function.add(&a);
+
     a.by_q = NULL;
-    a.scale = -1;
+    a.by_w = NULL;
     a.value = x->value;
-    if (x->value) L->function.add(&a);
-    return x->f && L->kind == LAGRANGIAN_POTENTIAL ? lagrangian_look(L, x) : 0;
-}
+    if (!whole && !term) a.scale = -1;
+    if (a.value) L->function.add(&a);
 
-/* LINEAR, MASS_LINEAR: L - v'Mv/2 */
-static inline int lagrangian_term(const gvi_points *x, void *user)
-{
-    lagrangian *L = (lagrangian *)user;
-    if (x->n != L->function.n) return lagrangian_other_n(x);
-    lagrangian_wanted a = lagrangian_want(L->user, x, x->v, 1), kinetic = lagrangian_want_quadratic(L->user, x, x->v, -1),
-                      term = lagrangian_want(L->user, x, NULL, 1);
-    a.by_q = x->f;
-    a.value = kinetic.value = x->value;
-    term.by_w = x->dldv;
-    if (L->kind == LAGRANGIAN_MASS_LINEAR) kinetic.by_q = x->f;        // see lagrangian_gradient
-    if (x->f || x->value) L->function.add(&a);
-    if (kinetic.by_q || x->value) L->function.add(&kinetic);
-    if (x->dldv) L->function.add(&term);
-    return x->f ? lagrangian_look(L, x) : 0;
-}
-
-static inline int lagrangian_whole(const gvi_points *x, void *user)
-{
-    lagrangian *L = (lagrangian *)user;
-    if (x->n != L->function.n) return lagrangian_other_n(x);
-    lagrangian_wanted a = lagrangian_want(L->user, x, x->v, 1);
-    a.by_q = x->f;
+    a.value = NULL;
+    a.w = NULL;
     a.by_w = x->dldv;
-    a.value = x->value;
-    if (x->f || x->dldv || x->value) L->function.add(&a);
-    return x->f ? lagrangian_look(L, x) : 0;
+    if (term && a.by_w) L->function.add(&a);
+    if (term) lagrangian_less_kinetic(L, x);
+    return x->f && L->kind != LAGRANGIAN_MASS ? lagrangian_look(L, x) : 0;
 }
 
 /* Column j of M(q) is dL/dv at a huge v = e_j, from the first to the last entry that varies */
@@ -1489,7 +1398,7 @@ static inline gvi_effect lagrangian_effect(lagrangian *L)
     lagrangian_take(L);
     memset(&effect, 0, sizeof effect);
     effect.kind = term || whole ? GVI_LAGRANGIAN : GVI_POTENTIAL;
-    if (L->kind != LAGRANGIAN_REFUSED) effect.points = whole ? lagrangian_whole : term ? lagrangian_term : lagrangian_potential;
+    if (L->kind != LAGRANGIAN_REFUSED) effect.points = lagrangian_points;
     effect.value = effect.points;
     effect.user = L;
     return effect;
@@ -1572,6 +1481,7 @@ static inline int hamiltonian_term(const gvi_points *x, void *user)
 {
     const hamiltonian *H = (const hamiltonian *)user;
     const int n = x->n, R = x->stride;
+    if (!x->f && !x->dldv && x->v != H->v) return gvi_fail(x, "H has no action: its step is collocation");
     if (!H->p || x->q != H->q || x->v != H->v) return gvi_fail(x, "H needs gvi_start_momentum and GVI_MOMENTA: a velocity is not its start");
     lagrangian_wanted a = lagrangian_want(H->user, x, H->p, -1);
     a.by_q = x->f;

@@ -1,5 +1,6 @@
-/* What does it cost to give L alone (examples/tools/lagrangian.h)?  Five systems with derivatives by hand and from L:
-   time of a step of degree 8, as C or as C++, and how far apart the two are at the end.  make from-l */
+/* What does it cost to give L alone (examples/tools/lagrangian.h)?  Systems with derivatives by hand and from L:
+   time of a step of degree 8, as C or as C++, and how far apart the two are at the end.  from_l NAME 0 or 1: 500 steps of
+   that system without the watch, or with it, whose instructions tests/tools/watch.sh counts.  make from-l */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
 #include "tools/lagrangian.h"
@@ -48,6 +49,17 @@ GVI_EACH(weight, 2, f)
     x->f[1] -= g*sin(x->q[1]);
 }
 
+/* lesson 41: x and the lean of a body on wheels */
+GVI_EACH(wheels, 2, mass)
+{
+    x->mass[0] = 13;
+    x->mass[2] = 5*cos(x->q[1]);
+    x->mass[3] = 3.3;
+}
+
+GVI_EACH(wheels_gradient, 2, v, f) { x->f[1] -= 5*sin(x->q[1])*x->v[0]*x->v[1]; }
+GVI_EACH(leaning_weight, 2, f) { x->f[1] += 5*g*sin(x->q[1]); }
+
 /* the planet near the speed of light, c = 5 */
 GVI_EACH(fast_by_hand, 2, v, f, dldv)
 {
@@ -90,6 +102,12 @@ LAGRANGIAN(pendulum, 2)
     return v[0]*v[0] + v[1]*v[1]/2 + v[0]*v[1]*cos(q[0] - q[1]) + 2*g*cos(q[0]) + g*cos(q[1]);
 }
 
+LAGRANGIAN(leaning, 2)
+{
+    const number a = q[1], u = v[0], w = v[1];
+    return (2 + 0.04/(0.2*0.2) + 10)*u*u/2 + 10*0.5*cos(a)*u*w + (10*0.5*0.5 + 0.8)*w*w/2 - 10*g*0.5*cos(a);
+}
+
 LAGRANGIAN(fast, 2)
 {
     const double c2 = 25;
@@ -108,6 +126,9 @@ LAGRANGIAN(planets, 10)
     }
     return L;
 }
+
+static const char *only;               /* this system, from L, for 500 steps   */
+static int watch;
 
 static double seconds(void)
 {
@@ -136,12 +157,20 @@ static void compare(const char *name, lagrangian_function function, gvi_desc by_
     static double memory[2][100000];
     static lagrangian L;
     gvi_stepper a, b;
+    if (only && strcmp(only, name)) return;
     const char *wrong = lagrangian_init(&L, function, NULL, 0, q, v);
     if (wrong) { puts(wrong); return; }
     const gvi_effect effect = lagrangian_effect(&L);
     gvi_desc desc = by_hand;
     desc.effects = &effect;
     desc.mass = lagrangian_mass(&L);
+    if (only) {
+        if (!watch) L.points = -2000000000;                   // so many before the next look
+        gvi_init(&b, &desc, memory[1], sizeof memory[1]);
+        gvi_start(&b, 0, q, v);
+        for (int i = 0; i < 500 && b.status == GVI_OK; ++i) gvi_step(&b, h);
+        return;
+    }
     const double hand = run(&by_hand, h, steps, q, v, &a, memory[0], sizeof memory[0]),
                  from_l = run(&desc, h, steps, q, v, &b, memory[1], sizeof memory[1]);
     double apart = 0;
@@ -164,14 +193,16 @@ static gvi_desc scene(int n, gvi_effect *effect, gvi_kind kind, gvi_points_fn *p
     return desc;
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+    only = argc > 2 ? argv[1] : NULL;
+    watch = argc > 2 && argv[2][0] == '1';
     static const double q2[] = { 0.4, 0 }, v2[] = { 0, 2 }, q_charge[] = { 0.8, 0.4 }, v_charge[] = { 0, 0.5 },
-                        at_rest[] = { 0, 0 }, q_planets[] = { 0, 0, 5.2, 0, 0, 9.5, -19, 0, 0, -30 },
+                        at_rest[] = { 0, 0 }, q_leaning[] = { 0, 3 }, q_planets[] = { 0, 0, 5.2, 0, 0, 9.5, -19, 0, 0, -30 },
                         v_planets[] = { 0, 0, 0, 0.4385, -0.324, 0, 0, -0.229, 0.1826, 0 };
     gvi_effect effect;
     gvi_desc d;
-    puts("ns a step                         by hand   from L  ratio   apart");
+    if (!only) puts("ns a step                         by hand   from L  ratio   apart");
     compare("planet", planet, scene(2, &effect, GVI_POTENTIAL, attraction), 0.1, 20000, q2, v2);
     d = scene(10, &effect, GVI_POTENTIAL, gravity);
     d.mass.kind = GVI_MASS_DIAGONAL;
@@ -183,6 +214,11 @@ int main(void)
     d.mass.points = links;
     d.mass.gradient = links_gradient;
     compare("double pendulum", pendulum, d, 0.05, 10000, q_charge, at_rest);
+    d = scene(2, &effect, GVI_POTENTIAL, leaning_weight);
+    d.mass.kind = GVI_MASS_POSITION;
+    d.mass.points = wheels;
+    d.mass.gradient = wheels_gradient;
+    compare("lesson 41", leaning, d, 0.05, 10000, q_leaning, at_rest);
     d = scene(2, &effect, GVI_LAGRANGIAN, fast_by_hand);
     d.mass.kind = GVI_MASS_NONE;
     compare("relativistic planet", fast, d, 0.1, 3000, q2, v2);
