@@ -8801,7 +8801,7 @@ static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real 
 }
 
 /* Mode K of coordinate i by the change of mode K - 1 since the step before; *was: its size there,
-   in steps of this length.  Without a step before, for K = s = 3, as the modes below it fall. */
+   in steps of this length.  Without a step before, for K = s = 3, as the modes y below it fall. */
 static gvi_real gvi__mode_since(const gvi_stepper *st, int i, const gvi_real *y, gvi_real *was)
 {
     const struct gvi__dial *dial = &st->in.dial;
@@ -8946,7 +8946,7 @@ static gvi_real gvi__coarse_mode(const gvi_stepper *st, int i, gvi_real v, gvi_r
         low += a[1]*F[j];
     }
     in->dial.now[i] = h*low;
-    if (!gvi__nonzero(in->dial.high[0])) unseen = gvi__mode_since(st, i, &was);
+    if (!gvi__nonzero(in->dial.high[0])) unseen = gvi__mode_since(st, i, NULL, &was);
     if (gvi__constrained(st)) high += gvi__high_constraint_mode(st, i, end/h);
     return GVI_ABS(h*high) + unseen;
 }
