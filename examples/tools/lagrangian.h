@@ -1481,8 +1481,9 @@ static inline int hamiltonian_term(const gvi_points *x, void *user)
 {
     const hamiltonian *H = (const hamiltonian *)user;
     const int n = x->n, R = x->stride;
-    if (!x->f && !x->dldv && x->v != H->v) return gvi_fail(x, "H has no action: its step is collocation");
-    if (!H->p || x->q != H->q || x->v != H->v) return gvi_fail(x, "H needs gvi_start_momentum and GVI_MOMENTA: a velocity is not its start");
+    if (!H->p || x->q != H->q || x->v != H->v)
+        return gvi_fail(x, x->value ? "H has no action: its step is collocation"
+                                    : "H needs gvi_start_momentum and GVI_MOMENTA: a velocity is not its start");
     lagrangian_wanted a = lagrangian_want(H->user, x, H->p, -1);
     a.by_q = x->f;
     a.value = x->value;
