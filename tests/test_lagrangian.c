@@ -723,6 +723,50 @@ TEST(typed_rows_have_their_derivatives)
     assert_null(why);
 }
 
+/* several rows, more coordinates than L may have, and what the arrays held before */
+HOLDS(two_rows, 40, 2)
+{
+    row[0] = q[0]*q[39] - t*t;
+    row[1] = sin(q[1]) - 3*t*q[2];
+}
+ROLLS(two_that_roll, 3, 2)
+{
+    row[0] = q[0]*v[1] + t;
+    row[1] = v[2] - q[1]*q[2]*v[0];
+}
+
+TEST(several_typed_rows_have_their_derivatives)
+{
+    real t[] = { R(0.5), 2 }, q[80], row[4], G[160], rate[4], A[12], a[4], kept[] = { 7, 7, 7, 7 };
+    for (int i = 0; i < 80; ++i) q[i] = R(0.25) + (real)i/64;
+    for (int i = 0; i < 160; ++i) G[i] = 5;
+    for (int i = 0; i < 12; ++i) A[i] = 5;
+    for (int i = 0; i < 4; ++i) row[i] = rate[i] = a[i] = 5;
+    gvi_points x = { .n = 40, .count = 2, .stride = 2, .t = t, .q = q, .g = row, .jacobian = G, .rate = rate };
+    assert_int_equal(two_rows(&x, NULL), 0);
+    for (int k = 0; k < 2; ++k) {
+        const long double first[] = { q[78 + k], q[k] }, second[] = { cosl(q[2 + k]), -3*(long double)t[k] };
+        assert_close(row[k], (long double)q[k]*q[78 + k] - (long double)t[k]*t[k], 8*EPS);
+        assert_close(row[2 + k], sinl(q[2 + k]) - 3*(long double)t[k]*q[4 + k], 8*EPS);
+        assert_close(rate[k], -2*(long double)t[k], 8*EPS);
+        assert_close(rate[2 + k], -3*(long double)q[4 + k], 8*EPS);
+        for (int i = 0; i < 40; ++i) {
+            assert_close(G[i*2 + k], i == 0 ? first[0] : i == 39 ? first[1] : 0, 8*EPS);
+            assert_close(G[(40 + i)*2 + k], i == 1 ? second[0] : i == 2 ? second[1] : 0, 8*EPS);
+        }
+    }
+
+    x = (gvi_points){ .n = 3, .count = 2, .stride = 2, .t = t, .q = q, .g = kept, .jacobian = A, .rate = a };
+    assert_int_equal(two_that_roll(&x, NULL), 0);
+    for (int k = 0; k < 2; ++k) {
+        const long double right[2][3] = { { 0, q[k], 0 }, { -(long double)q[2 + k]*q[4 + k], 0, 1 } };
+        assert_close(a[k], t[k], 0);
+        assert_close(a[2 + k], 0, 0);
+        for (int i = 0; i < 6; ++i) assert_close(A[i*2 + k], right[i/3][i%3], 8*EPS);
+        assert_close(kept[k], 7, 0);
+    }
+}
+
 TEST(typed_rows_refuse)
 {
     real row[6], G[18], rate[6], f[18] = { 0 }, t[6], q[18], v[18];
@@ -803,6 +847,8 @@ TEST(energy_of_h_stays)
         worst = fmaxl(worst, fabsl((long double)(now - start)));
     }
     assert_between(0, worst, 45*EPS);
+    assert_status(gvi_action(&st, &now), GVI_E_CALLBACK);
+    assert_says(gvi_why(&st), "H has no action");
 }
 
 /* p of the Lagrangian: the same steps from L and from H, to rounding */

@@ -118,7 +118,6 @@ typedef struct lagrangian_wanted {
 typedef struct lagrangian_function {
     int n;
     void (*add)(const lagrangian_wanted *wanted);
-    int rows;                         /* 0: one function                        */
 } lagrangian_function;
 
 LAGRANGIAN__INLINE int lagrangian_is_zero(lagrangian_real x) { return x <= 0 && x >= 0; }
@@ -132,8 +131,8 @@ LAGRANGIAN__INLINE int lagrangian_rests(const lagrangian_wanted *a, int k)
     return 1;
 }
 
-static inline int lagrangian_holds(const lagrangian_function *rows, gvi_real *room, const gvi_points *x, void *user);
-static inline int lagrangian_rolls(const lagrangian_function *rows, gvi_real *room, const gvi_points *x, void *user);
+static inline int lagrangian_holds(const lagrangian_function *F, int rows, gvi_real *room, const gvi_points *x, void *user);
+static inline int lagrangian_rolls(const lagrangian_function *F, int rows, gvi_real *room, const gvi_points *x, void *user);
 static inline int lagrangian_dissipates(const lagrangian_function *F, const gvi_points *x, void *user);
 
 /* -------------------------------------------------- numbers with a derivative
@@ -480,7 +479,7 @@ template <class F, int n, int rows> inline void lagrangian_any(const lagrangian_
 
 #define LAGRANGIAN__FUNCTION(name, n, w)                                                        \
     LAGRANGIAN__DECLARE(name, n, 1, 0, number, return)                                          \
-    static const lagrangian_function name = { n, name##_add, 1 };                               \
+    static const lagrangian_function name = { n, name##_add };                                  \
     LAGRANGIAN__BODY(name, number, w, lagrangian_row)
 #define LAGRANGIAN(name, n) LAGRANGIAN__FUNCTION(name, n, v)
 #define HAMILTONIAN(name, n) LAGRANGIAN__FUNCTION(name, n, p)
@@ -489,9 +488,9 @@ template <class F, int n, int rows> inline void lagrangian_any(const lagrangian_
     LAGRANGIAN__DECLARE(name, n, m, 1, void, )                                                  \
     static int name(const gvi_points *lagrangian_x, void *user)                                 \
     {                                                                                           \
-        const lagrangian_function lagrangian_f = { n, name##_add, m };                          \
+        const lagrangian_function lagrangian_f = { n, name##_add };                             \
         gvi_real lagrangian_room[4*(n) + 2*(m)];                                                \
-        return fill(&lagrangian_f, lagrangian_room, lagrangian_x, user);                        \
+        return fill(&lagrangian_f, m, lagrangian_room, lagrangian_x, user);                     \
     }                                                                                           \
     LAGRANGIAN__BODY(name, void, v, row)
 #define HOLDS(name, n, m) LAGRANGIAN__ROWS(name, n, m, lagrangian_holds)
@@ -501,7 +500,7 @@ template <class F, int n, int rows> inline void lagrangian_any(const lagrangian_
     LAGRANGIAN__DECLARE(name, n, 1, 0, number, return)                                          \
     static int name(const gvi_points *lagrangian_x, void *user)                                 \
     {                                                                                           \
-        const lagrangian_function lagrangian_f = { n, name##_add, 1 };                          \
+        const lagrangian_function lagrangian_f = { n, name##_add };                             \
         return lagrangian_dissipates(&lagrangian_f, lagrangian_x, user);                        \
     }                                                                                           \
     LAGRANGIAN__BODY(name, number, v, lagrangian_row)
@@ -657,7 +656,7 @@ typedef struct lagrangian_line {
     gvi_real                   t, dt;
     const gvi_real            *q, *w, *direction;
     gvi_real                  *at, *values;
-    int                        row;
+    int                        rows, row;
 } lagrangian_line;
 
 static inline gvi_real lagrangian_on_line(const lagrangian_line *l, gvi_real s)
@@ -670,7 +669,7 @@ static inline gvi_real lagrangian_on_line(const lagrangian_line *l, gvi_real s)
     const gvi_real t = l->t + s*l->dt;
     const gvi_points x = lagrangian_point(n, &t, l->at);
     lagrangian_wanted a = lagrangian_want(l->user, &x, l->at + n, 1);
-    for (int r = 0; r < l->F->rows; ++r) l->values[r] = 0;
+    for (int r = 0; r < l->rows; ++r) l->values[r] = 0;
     a.value = l->values;
     l->F->add(&a);
     return l->values[l->row];
@@ -759,16 +758,16 @@ static inline int lagrangian_loses_on(const lagrangian_line *l)
 /* ------------------------------------------------------------------------ rows */
 
 /* On the way from the first point to the second */
-static inline int lagrangian_rows_lose(const lagrangian_function *rows, gvi_real *room, const gvi_points *x, const void *user)
+static inline int lagrangian_rows_lose(const lagrangian_function *F, int rows, gvi_real *room, const gvi_points *x, const void *user)
 {
     const int n = x->n, R = x->stride;
     gvi_real *q = room, *dq = q + n, *at = dq + n;
-    lagrangian_line line = { rows, user, x->t[0], x->t[1] - x->t[0], q, NULL, dq, at, at + 2*n, 0 };
+    lagrangian_line line = { F, user, x->t[0], x->t[1] - x->t[0], q, NULL, dq, at, at + 2*n, rows, 0 };
     for (int i = 0; i < n; ++i) {
         q[i] = x->q[i*R];
         dq[i] = x->q[i*R + 1] - q[i];
     }
-    for (; line.row < rows->rows; ++line.row) {
+    for (; line.row < rows; ++line.row) {
         const gvi_real rate = x->rate[line.row*R];
         gvi_real slope = rate*line.dt, rounding = lagrangian_size(rate*line.t), error;
         for (int i = 0; i < n; ++i) {
@@ -789,21 +788,21 @@ static inline void lagrangian_clear(int count, gvi_real *x)
 }
 
 /* g(t,q), dg/dq and dg/dt */
-static inline int lagrangian_holds(const lagrangian_function *rows, gvi_real *room, const gvi_points *x, void *user)
+static inline int lagrangian_holds(const lagrangian_function *F, int rows, gvi_real *room, const gvi_points *x, void *user)
 {
-    const int size = rows->rows*x->stride;
-    if (x->n != rows->n || !x->g) return gvi_fail(x, "HOLDS is of another n than the scene, or .kind is not GVI_CONSTRAINT");
+    const int size = rows*x->stride;
+    if (x->n != F->n || !x->g) return gvi_fail(x, "HOLDS is of another n than the scene, or .kind is not GVI_CONSTRAINT");
     lagrangian_wanted a = lagrangian_want(user, x, NULL, 1);
     lagrangian_clear(size, a.value = x->g);
     lagrangian_clear(size*x->n, a.by_q = x->jacobian);
     lagrangian_clear(size, a.by_t = x->rate);
-    rows->add(&a);
-    if (!LAGRANGIAN__LOSES || x->count < 4 || !lagrangian_rows_lose(rows, room, x, user)) return 0;
+    F->add(&a);
+    if (!LAGRANGIAN__LOSES || x->count < 4 || !lagrangian_rows_lose(F, rows, room, x, user)) return 0;
     return gvi_fail(x, "a row of HOLDS has lost a derivative: is a variable in it a double that has to be a number?");
 }
 
 /* Is row A v + a at the first point that at a huge v, too? */
-static inline int lagrangian_linear(const lagrangian_function *rows, gvi_real *room, const gvi_points *x, const void *user)
+static inline int lagrangian_linear(const lagrangian_function *F, int rows, gvi_real *room, const gvi_points *x, const void *user)
 {
     const int n = x->n, R = x->stride;
     gvi_real *q = room, *w = q + n, *values = w + n;
@@ -814,9 +813,9 @@ static inline int lagrangian_linear(const lagrangian_function *rows, gvi_real *r
         w[i] = 1 + (gvi_real)((i*5)%7)/8;
     }
     a.times = LAGRANGIAN__HUGE;
-    lagrangian_clear(rows->rows, a.value = values);
-    rows->add(&a);
-    for (int r = 0; r < rows->rows; ++r) {
+    lagrangian_clear(rows, a.value = values);
+    F->add(&a);
+    for (int r = 0; r < rows; ++r) {
         gvi_real off = values[r], size = 0;
         for (int i = 0; i < n; ++i) {
             const gvi_real part = x->jacobian[(r*n + i)*R]*w[i];
@@ -829,15 +828,15 @@ static inline int lagrangian_linear(const lagrangian_function *rows, gvi_real *r
 }
 
 /* A(t,q) and a(t,q) of the row A v + a */
-static inline int lagrangian_rolls(const lagrangian_function *rows, gvi_real *room, const gvi_points *x, void *user)
+static inline int lagrangian_rolls(const lagrangian_function *F, int rows, gvi_real *room, const gvi_points *x, void *user)
 {
-    const int size = rows->rows*x->stride;
-    if (x->n != rows->n || !x->jacobian) return gvi_fail(x, "ROLLS is of another n than the scene, or .kind is not GVI_NONHOLONOMIC");
+    const int size = rows*x->stride;
+    if (x->n != F->n || !x->jacobian) return gvi_fail(x, "ROLLS is of another n than the scene, or .kind is not GVI_NONHOLONOMIC");
     lagrangian_wanted a = lagrangian_want(user, x, NULL, 1);
     lagrangian_clear(size*x->n, a.by_w = x->jacobian);
     lagrangian_clear(size, a.value = x->rate);
-    rows->add(&a);
-    if (lagrangian_linear(rows, room, x, user)) return 0;
+    F->add(&a);
+    if (lagrangian_linear(F, rows, room, x, user)) return 0;
     return gvi_fail(x, "a row of ROLLS is not linear in v, or has lost a derivative: is a variable in it a double that has to "
                        "be a number?");
 }
@@ -858,7 +857,7 @@ static inline int lagrangian_dissipates(const lagrangian_function *F, const gvi_
         q[i] = x->q[i*R];
         direction[n + i] = w[i] = x->v[i*R];
     }
-    const lagrangian_line line = { F, user, x->t[0], 0, q, w, direction, at, &value, 0 };
+    const lagrangian_line line = { F, user, x->t[0], 0, q, w, direction, at, &value, 1, 0 };
     if (!lagrangian_loses_on(&line)) return 0;
     return gvi_fail(x, "DISSIPATION has lost a derivative: is a variable in it a double that has to be a number?");
 }
@@ -909,7 +908,7 @@ static inline const char *lagrangian_compare(lagrangian *L, gvi_real t, const gv
         const gvi_real size = lagrangian_scale(n, z, d%n);
         gvi_real direction[2*LAGRANGIAN_MOST] = { 0 }, at[2*LAGRANGIAN_MOST], value, error;
         direction[d] = 1;
-        const lagrangian_line line = { &L->function, L->user, t, 0, q, w, direction, at, &value, 0 };
+        const lagrangian_line line = { &L->function, L->user, t, 0, q, w, direction, at, &value, 1, 0 };
         const gvi_real right = lagrangian_difference(&line, size, 0, &error);
         if (!lagrangian_apart(g[d], right, error + 4*lagrangian_eps()*lagrangian_largest(2*n, g))) continue;
         snprintf(L->why, sizeof L->why,
@@ -930,7 +929,6 @@ static inline const char *lagrangian_begin(lagrangian *L, lagrangian_function fu
     unsigned seed = 7;
     memset(L, 0, sizeof *L);
     L->function = function;
-    L->function.rows = 1;
     L->user = user;
     L->name = name;
     L->of = of;
@@ -1263,7 +1261,7 @@ static inline int lagrangian_is_other(lagrangian *L, gvi_real t, const gvi_real 
 static inline int lagrangian_loses(lagrangian *L, gvi_real t, const gvi_real *q, const gvi_real *v, const gvi_real *way)
 {
     gvi_real at[2*LAGRANGIAN_MOST], value;
-    const lagrangian_line line = { &L->function, L->user, t, 0, q, v, way, at, &value, 0 };
+    const lagrangian_line line = { &L->function, L->user, t, 0, q, v, way, at, &value, 1, 0 };
     if (!lagrangian_loses_on(&line)) return 0;
     if (!lagrangian_compare(L, t, q, v))
         snprintf(L->why, sizeof L->why, "a derivative of %s is lost: is a variable in it a double that has to be a number?", L->name);
@@ -1481,8 +1479,9 @@ static inline int hamiltonian_term(const gvi_points *x, void *user)
 {
     const hamiltonian *H = (const hamiltonian *)user;
     const int n = x->n, R = x->stride;
-    if (!x->f && !x->dldv && x->v != H->v) return gvi_fail(x, "H has no action: its step is collocation");
-    if (!H->p || x->q != H->q || x->v != H->v) return gvi_fail(x, "H needs gvi_start_momentum and GVI_MOMENTA: a velocity is not its start");
+    if (!H->p || x->q != H->q || x->v != H->v)
+        return gvi_fail(x, x->value ? "H has no action: its step is collocation"
+                                    : "H needs gvi_start_momentum and GVI_MOMENTA: a velocity is not its start");
     lagrangian_wanted a = lagrangian_want(H->user, x, H->p, -1);
     a.by_q = x->f;
     a.value = x->value;

@@ -163,7 +163,7 @@ static wide judge(const system_of *s, const char **wrong, wide *closed, lagrangi
 
 int main(int argc, char **argv)
 {
-    static const system_of systems[] = { SYSTEMS(WITHOUT, WITH) };
+    const system_of systems[] = { SYSTEMS(WITHOUT, WITH) };
     const int count = (int)(sizeof systems/sizeof systems[0]), show = argc > 1 && !strcmp(argv[1], "show");
     int failed = 0;
     for (int i = 0; i < count; ++i) {
