@@ -1740,7 +1740,6 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 // the dial, in rungs, four an octave
 #define GVI__BAND 2                        // room at which h stays, and that growth leaves
 #define GVI__GROWS 4                       // the most that it grows
-#define GVI__MARGIN 1                      // of room, kept back
 #define GVI__MANY (4 + GVI__DIG/4)         // iterations from which on a longer step does not pay
 #define GVI__WAIT 4                        // steps until a length that failed is tried again
 #define GVI__SHORTER 16                    // below what the resolution allows: Newton's method
@@ -9065,7 +9064,7 @@ static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
     const gvi_real most = gvi__rungs(st->in.desc.resolution) - gvi__rungs(seen);
     // the modes end at rounding: above GVI__DEEP the resolution falls no faster than there
     const int degree = st->s < GVI__DEEP ? st->s : GVI__DEEP;
-    const gvi_real room = most/(gvi_real)(2*degree - 1) - GVI__MARGIN,
+    const gvi_real room = most/(gvi_real)(2*degree - 1) - 1,
                    up = status == GVI_OK ? gvi__rungs_up(st, at, room)
                                          : gvi__rungs_down(st, status, at, room),
                    // half of what was left to an end, doubled, is to be all of it
