@@ -4560,7 +4560,7 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
         const gvi_real was = v[j], wanted = GVI_ABS(p ? p[j] : st->in.sized.h*at->f[j]),
                        push = root*gvi__larger(wanted, GVI_ABS(base[j]));
         const int rests = !gvi__nonzero(was);
-        gvi_real d = 0, next = root*GVI_ABS(was);
+        gvi_real d = 0, edge = GVI__MAX, next = root*GVI_ABS(was);
         if (rests) next = root*(gvi__norm1(n, v)/(gvi_real)n);
         if (!(next > GVI__MIN/GVI__EPS)) next = root;
         for (int k = 0; k < 12; ++k) {
@@ -4572,11 +4572,12 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
             const gvi_real moved = GVI_ABS(at->dldv[j] - base[j]);
             if (status != GVI_OK || !gvi__finite(at->dldv[j])) {
                 // out of the domain: nearer, and at the last place back towards 0
+                edge = GVI_ABS(d);
                 next = d*root;
                 if (GVI_ABS(d)*root < 2*GVI__EPS*GVI_ABS(was)) next = -2*GVI__EPS*was;
             } else if (rests && push > 0 && moved > 16*push) {
                 next = d*(push/moved);
-            } else if (moved < push/2) {
+            } else if (moved < push/2 && GVI_ABS(d)/GVI_SQRT(root) < edge) {
                 next = d/GVI_SQRT(root);
             } else break;
             if (!gvi__nonzero(next)) break;
@@ -4616,13 +4617,13 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
     const int n = st->n;
     const gvi_real rounding = 2*GVI__PLACE*GVI__EPS*(gvi_real)n;
     gvi_real *W = st->in.lagrangian.hessian, *pivot = W + n*n, *dv = st->in.lagrangian.column + n,
-             least = GVI__MAX;
+             least = GVI__MAX, last = GVI__MAX;
     int at;
 
     x->v = v;
     gvi__count(&st->counters.velocities, 1);
     for (int k = 0, halves = 0, idle = 0; k < 60; ++k) {
-        gvi_real miss = 0, all = 0;
+        gvi_real miss = 0, all = 0, change = 0;
         gvi_status status = gvi__evaluate(st, x, 0, 1);
         if (status == GVI_OK && gvi__first_non_finite(n, x->dldv) >= 0) status = GVI_E_NON_FINITE;
         if (status == GVI_OK) status = gvi__velocity_hessian(st, x, v, p, W);
@@ -4647,9 +4648,14 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
         if (status != GVI_OK) return status;
         gvi__copy((size_t)n, dv + n, dv);
         gvi_lu_solve(n, W, pivot, dv);
-        for (int i = 0; i < n; ++i) v[i] += dv[i];
+        for (int i = 0; i < n; ++i) {
+            v[i] += dv[i];
+            if (gvi__nonzero(dv[i])) change += GVI_ABS(dv[i])/(GVI_ABS(dv[i]) + GVI_ABS(v[i]));
+        }
         if (gvi__first_non_finite(n, v) >= 0) break;
-        idle = miss < least/2 ? 0 : idle + 1;
+        // from beyond the root corrections grow threefold, be they of the last place
+        idle = miss < least/2 || change > 2*last ? 0 : idle + 1;
+        last = change;
         least = gvi__smaller(miss, least);
         if (!(miss > 0) || (idle > 0 && miss <= rounding) || (idle > 2 && all <= rounding))
             return GVI_OK;
@@ -7927,8 +7933,8 @@ GVI__COLD gvi_status gvi__row_rates(gvi_stepper *st, const gvi_real *v, const gv
     gvi_real *q = in->answer, *p = q + n, *u = p + n, *G = in->con.G1 + m*n;
 
     gvi__zero((size_t)m, z);
-    for (gvi_real e = delta; e >= -delta; e -= 2*delta) {
-        const gvi_real t = st->t + e;
+    for (int side = 0; side < 2; ++side) {
+        const gvi_real e = side ? -delta : delta, t = st->t + e;
         gvi__add_scaled(n, e, v, st->q, q);
         gvi__add_scaled(n, e, force, st->p, p);
         gvi__copy((size_t)n, v, u);
