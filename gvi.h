@@ -4546,8 +4546,8 @@ GVI__OFFERED gvi_real *gvi__rows_of_A(const struct gvi__private *in) { return in
 
 /* d(dL/dv)/dv at one point, n*n, by differences of dL/dv, to `hessian`.  x has been evaluated, and
    x->v is v.  A difference moves P_j by sqrt(eps) of what there is of momentum: P_j itself, which
-   need not be 0 with v, and p_j that is wanted, or in a step, where p is NULL, h f_j.  It is
-   sqrt(eps) of v_j where that moves P_j more, and shorter where it leaves the domain of L.    */
+   need not be 0 with v, and from rest p_j that is wanted, or in a step, where p is NULL, h f_j.
+   It is sqrt(eps) of v_j where that moves P_j more, and shorter where it leaves L's domain.   */
 static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_real *v,
                                         const gvi_real *p, gvi_real *hessian)
 {
@@ -4557,9 +4557,9 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
 
     gvi__copy((size_t)n, at->dldv, base);
     for (int j = 0; j < n; ++j) {
-        const gvi_real was = v[j], wanted = GVI_ABS(p ? p[j] : st->in.sized.h*at->f[j]),
-                       push = root*gvi__larger(wanted, GVI_ABS(base[j]));
+        const gvi_real was = v[j], wanted = GVI_ABS(p ? p[j] : st->in.sized.h*at->f[j]);
         const int rests = !gvi__nonzero(was);
+        const gvi_real push = root*gvi__larger(rests ? wanted : 0, GVI_ABS(base[j]));
         gvi_real d = 0, edge = GVI__MAX, next = root*GVI_ABS(was);
         if (rests) next = root*(gvi__norm1(n, v)/(gvi_real)n);
         if (!(next > GVI__MIN/GVI__EPS)) next = root;
