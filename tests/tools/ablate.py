@@ -64,7 +64,7 @@ CONDITIONS = [   # what it is, the tests near it, what stands in gvi.h and what 
     ('d2L/dv2 from rest', 'lagrangian mass convergence newton jumps regressions identities uncoupled oracle why constraints_newton',
      [('} else if (rests && push > 0 && moved > 16*push) {', '} else if (0) {')]),
     ('d2L/dv2 beside a large p', 'lagrangian mass convergence newton jumps regressions identities uncoupled oracle why constraints_newton',
-     [('} else if (moved < push/2) {', '} else if (0) {')]),
+     [('} else if (moved < push/2 && GVI_ABS(d)/GVI_SQRT(root) < edge) {', '} else if (0 && edge > 0) {')]),
     ('one ratio of the fixed point may be luck', 'uncoupled regressions jumps convergence hostile newton tolerance domains resolution constraints',
      [('if (!(D*other <= limit)) return 0;', '')]),
     ("halfway into a callback's domain", 'uncoupled regressions jumps convergence hostile newton tolerance domains resolution constraints',
