@@ -215,13 +215,13 @@ $(EXAMPLES:%=example-%): example-%: $(BUILD)/examples/%
 include tests/studies.mk
 
 # These use all processors by themselves, and say how far they are.
-RUN := $(or $(filter test check unit examples valgrind,$(MAKECMDGOALS)),none)
+RUN := $(or $(filter test check unit examples valgrind sanitize,$(MAKECMDGOALS)),none)
 ifeq ($(MAKELEVEL)$(RUN),0$(filter-out none,$(RUN)))
 JOBS := $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
 MAKEFLAGS := $(MAKEFLAGS) -k $(if $(findstring -j,$(MAKEFLAGS)),,-j$(JOBS))
 export STEPS := $(words $(if $(filter test,$(RUN)),$(TEST_STEPS)) $(if $(filter check,$(RUN)),$(filter-out sanitize,$(CHECK_STEPS)) $(SANITIZED)) \
     $(if $(filter unit,$(RUN)),$(PROGRAMS)) $(if $(filter examples,$(RUN)),$(EXAMPLES)) \
-    $(if $(filter valgrind,$(RUN)),$(VALGRIND)))
+    $(if $(filter valgrind,$(RUN)),$(VALGRIND)) $(if $(filter sanitize,$(RUN)),$(SANITIZED)))
 export PROGRESS := $(shell mkdir -p $(BUILD) && : >$(BUILD)/progress && echo $(BUILD)/progress)
 endif
 

@@ -1368,7 +1368,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #ifdef GVI_NO_NEWTON
 #define GVI__NEWTON_LENGTH(n, s, R) 0
 #else
-#define GVI__NEWTON_LENGTH(n, s, R) ((10*(s) + 5*(R) + (3 + 2*(s)*(s))*(n))*(n) + 2)
+#define GVI__NEWTON_LENGTH(n, s, R) ((2 + 10*(s) + 5*(R) + (3 + 2*(s)*(s))*(n))*(n) + 2)
 #endif
 #ifdef GVI_NO_DIAL
 #define GVI__DIAL_LENGTH(n, R) 0
@@ -1381,7 +1381,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
     + (GVI__SIZE(m)*(GVI__SIZE(n) + 2) + GVI__SIZE(r))*GVI__SIZE(GVI__ROW(r))     \
     + (6*GVI__SIZE(n) + 3*GVI__SIZE(m) + 2*GVI__SIZE(r) + 5*GVI__SIZE(s) + 4 + (4 + GVI__SIZE(m)) \
        *(GVI__SIZE(n) + GVI__SIZE(m)))*(GVI__SIZE(GVI__ROW(r)) + GVI__SIZE(GVI__ROW((s) + 1)))    \
-    + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + (2*GVI__SIZE(n) + 10)*GVI__SIZE(m) \
+    + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + (2*GVI__SIZE(n) + 16)*GVI__SIZE(m) \
     + (12 + 2*GVI__SIZE(s)*(2*GVI__SIZE(n) + GVI__SIZE(m)))*GVI__SIZE(s)*GVI__SIZE(m))
 
 #ifdef __cplusplus
