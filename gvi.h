@@ -6042,7 +6042,7 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
             size += GVI_ABS(*y);
         }
         // y may land on 0, or be small beside a term A.v
-        const gvi_real least = gvi__larger(in->watch.change[i]*unit*unit, GVI__EPS*change);
+        const gvi_real least = gvi__larger(in->adds_p ? in->watch.change[i]*unit*unit : 0, GVI__EPS*change);
         if (!(size <= none && change <= none)) sum += change/gvi__larger(size, least);
         all += change/unit;
         if (size > length*unit) length = size/unit;
@@ -7995,6 +7995,8 @@ GVI__COLD gvi_status gvi__hold_rate(gvi_stepper *st, const gvi_real *v, const gv
         status = gvi__row_rates(st, v, force, delta, z);
         for (int a = 0; a < m; ++a) z[a] = -z[a];
         gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
+        // delta is rounded away
+        if (least < GVI__MAX && !gvi__nonzero(gvi__force_norm(st, in->zeros, z))) break;
         gvi__romberg(st, k, z);
         const gvi_real *now = sum + (k < 5 ? k + 1 : 6)*m, size = gvi__force_norm(st, in->zeros, z),
                        whole = gvi__force_norm(st, force, now)
