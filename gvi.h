@@ -8013,7 +8013,7 @@ GVI__COLD gvi_status gvi__hold_rate(gvi_stepper *st, const gvi_real *v, const gv
             least = both;
         }
         if (both <= rounding*(rounding*whole)) break;
-        if (both > 64*least && both <= GVI__EPS*whole) break;
+        if (both > 64*least && least <= GVI__EPS*whole) break;
         gvi__copy((size_t)m, now, before);
         last = k > 0 ? size : GVI__MAX;
     }
