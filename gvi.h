@@ -4654,7 +4654,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
         }
         if (gvi__first_non_finite(n, v) >= 0) break;
         // from beyond the root corrections grow threefold, be they of the last place
-        idle = miss < least/2 || change > 2*last ? 0 : idle + 1;
+        idle = miss < least/2 || (idle == 0 && change > 2*last) ? 0 : idle + 1;
         last = change;
         least = gvi__smaller(miss, least);
         if (!(miss > 0) || (idle > 0 && miss <= rounding) || (idle > 2 && all <= rounding))
