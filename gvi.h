@@ -6042,7 +6042,8 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
             size += GVI_ABS(*y);
         }
         // y may land on 0, or be small beside a term A.v
-        const gvi_real least = gvi__larger(in->adds_p ? in->watch.change[i]*unit*unit : 0, GVI__EPS*change);
+        const gvi_real terms = in->adds_p ? in->watch.change[i]*unit*unit : 0,
+                       least = gvi__larger(terms, GVI__EPS*change);
         if (!(size <= none && change <= none)) sum += change/gvi__larger(size, least);
         all += change/unit;
         if (size > length*unit) length = size/unit;

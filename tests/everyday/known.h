@@ -29,7 +29,7 @@ static known known_faults[] = {
     { "parallelogram", "starts at 0", "", "as accurate", REFUSED, 0, { 0, 2, 0 }, NEAR_0, 0 },
     { "", "starts at 0", "", "", DEAR, 0, { 16, 15, 9 }, NEAR_0, 0 },
     { "", "", "", "formulation 5", DEAR, 0, { 26, 8, 3 }, NEWTON_FLOOR, 0 },
-    { "", "all as terms", "", "no solution", REFUSED, 0, { 1, 1, 1 }, "rows and a mass of terms alone: Newton's floor of g", 0 },
+    { "", "all as terms", "", "no solution", REFUSED, 0, { 2, 1, 1 }, "rows and a mass of terms alone: Newton's floor of g", 0 },
     { "", "", "dial", "no solution", REFUSED, 0, { 5, 0, 0 }, DIAL_FLOOR, 0 },
     { "charge on a rod", "there and back", "", "no solution", REFUSED, 0, { 0, 0, 2 }, "Newton's floor under a row and a term A.v", 0 },
     { "", "", "dial", "never ends", REFUSED, 0, { 8, 1, 3 }, DIAL_FLOOR, 0 },
