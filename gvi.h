@@ -4557,9 +4557,10 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
 
     gvi__copy((size_t)n, at->dldv, base);
     for (int j = 0; j < n; ++j) {
-        const gvi_real was = v[j], wanted = GVI_ABS(p ? p[j] : st->in.sized.h*at->f[j]);
+        const gvi_real was = v[j];
         const int rests = !gvi__nonzero(was);
-        const gvi_real push = root*gvi__larger(rests ? wanted : 0, GVI_ABS(base[j]));
+        const gvi_real wanted = rests ? GVI_ABS(p ? p[j] : st->in.sized.h*at->f[j]) : 0,
+                       push = root*gvi__larger(wanted, GVI_ABS(base[j]));
         gvi_real d = 0, edge = GVI__MAX, next = root*GVI_ABS(was);
         if (rests) next = root*(gvi__norm1(n, v)/(gvi_real)n);
         if (!(next > GVI__MIN/GVI__EPS)) next = root;
