@@ -3,7 +3,7 @@
 #define GVI_IMPLEMENTATION
 #define GVI_STATIC              /* what is not called is not there                    */
 #define GVI_CORE                /* no chapter: this scene needs none, see below       */
-#define GVI_EFFECTS 3           /* three rows in effects[]                            */
+#define GVI_EFFECTS 3           /* three effects                                      */
 #include "gvi.h"
 #include <math.h>
 
