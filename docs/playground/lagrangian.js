@@ -1,9 +1,10 @@
 /* lagrangian.js - what is typed as a Lagrangian: to operations for own.h, and to C for lagrangian.h.
 
-   lagrange(text) gives { names, n, q, v, steps, length, draw, rods, force, end, timed, c }, or throws an Error that
-   names line and column.  The text: name = value or expression; L = ...; x(0) = value makes x a coordinate,
-   whose velocity is vx or x' (of q1: v1); Fx = ... is a force on it; end = value; draw = (x, y) (x, y), (x, y):
-   what stands together is joined.  2 x, sin^2(x), Greek letters, x² are read as on paper. */
+   lagrange(text) gives { names, n, q, v, steps, length, draw, rods, force, holds, rolls, end, timed, c }, or throws
+   an Error that names line and column.  The text: name = value or expression; L = ...; x(0) = value makes x a
+   coordinate, whose velocity is vx or x' (of q1: v1); Fx = ... is a force on it; 0 = ... a constraint, or a rolling one
+   where it has velocities; end = value; draw = (x, y) (x, y), (x, y): what stands together is joined.  2 x, sin^2(x),
+   Greek letters, x² are read as on paper. */
 const MATHS = { sqrt: Math.sqrt, exp: Math.exp, log: Math.log, sin: Math.sin, cos: Math.cos, tan: Math.tan, atan: Math.atan };
 const SIGNS = '?+-*/^';                                  /* their numbers, and after them MATHS: own.h */
 const N = c => ['number', c], EXP = a => ['exp', a];
@@ -73,10 +74,11 @@ function lagrange(text) {
   const sum = chain(chain(signed, () => (take(/^[*/\u00b7\u00d7]/) || '').replace(/[\u00b7\u00d7]/, '*') || beside()), () => (take(/^[+\u2212-]/) || '').replace('\u2212', '-'));
 
   /* the lines */
-  const lines = new Map(), places = new Map(), points = [], rods = [];
+  const lines = new Map(), places = new Map(), points = [], rods = [], rows = [];
   for (take(/^[,;]/); seen(/^./); take(/^[,;]/)) {
     seen(/^./);
-    const place = at, given = word(), zero = take(/^\(\s*0\s*\)/), name = given + (zero ? '(0)' : '');
+    const place = at, row = take(/^0(?=\s*=)/) && rows.push(`0 ${rows.length}`), given = row ? rows[row - 1] : word();
+    const zero = !row && take(/^\(\s*0\s*\)/), name = given + (zero ? '(0)' : '');
     if (!given) stop(`a line begins with a name, not with ${found()}`);
     if (!take(/^=/)) stop(lines.size ? `a sign such as * is missing before "${given}", or "=" after it` : `"=" is missing after ${name}`, place);
     if (MATHS[given] || MADE_OF[given] || /^(pow|ln|pi|t)$/.test(given) || /^[qv]$/.test(name)) stop(`${given} has a meaning of its own: take another name`, place);
@@ -101,6 +103,7 @@ function lagrange(text) {
   if (!n) stop('there is no coordinate: give each its start, such as x(0) = 1');
   if (n > 8) stop('there is room for 8 coordinates');
   if (points.length > 24) stop('there is room for 12 points to draw');
+  if (rows.length > 4) stop('there is room for 4 constraints', places.get(rows[4]));
   if (!lines.has('L')) stop('"L = ..." is missing');
 
   /* Operations: the values are t, q, v, then one of each operation. A constant is { c } until one needs it. */
@@ -149,10 +152,14 @@ function lagrange(text) {
     const { c } = make(lines.get(name));
     return isFinite(c) ? c : stop(`${name} has to be a number: ${c === undefined ? 'it depends on what moves' : 'it is not finite'}`, places.get(name));
   };
-  let root = slot(valueOf('L'));
-  if (root <= 2 * n) root = step(3, root, slot({ c: 1 }), 0);
-  const used = made.slice(0, -1), length = root - 2 * n, forced = names.map(a => n > 1 || lines.has('F' + a) ? 'F' + a : 'F').map(a => lines.has(a) && !used.includes(a) && a);
-  const force = forced.map(a => a ? slot(valueOf(a)) : -1), hasTime = timed;
+  const result = a => a <= 2 * n ? step(3, a, slot({ c: 1 }), 0) : a, length = result(slot(valueOf('L'))) - 2 * n;
+  const used = made.slice(0, -1), forced = names.map(a => n > 1 || lines.has('F' + a) ? 'F' + a : 'F').map(a => lines.has(a) && !used.includes(a) && a);
+  const force = forced.map(a => a ? slot(valueOf(a)) : -1), at0 = rows.map(a => {
+    const value = valueOf(a);
+    if (value.c !== undefined || !value) stop('a constraint has to depend on a coordinate', places.get(a));
+    return result(value);
+  }), hasTime = timed;
+  const rolls = rows.filter((a, i) => quick.has(at0[i])), holds = rows.filter(a => !rolls.includes(a)), places0 = list => list.map(a => at0[rows.indexOf(a)]);
   if (lines.has('F') && !values.has('F')) stop(`F acts on no coordinate: a force on ${names[0]} is F${names[0]} = ...`, places.get('F'));
   const q = names.map(a => constant(a + '(0)', 0)), v = names.map(a => constant(speedOf(a) + '(0)', 0)), end = constant('end', 10);
   if (!(end > 0)) stop('end has to be above 0', places.get('end'));
@@ -166,7 +173,7 @@ function lagrange(text) {
   if (steps.length > 600) stop('there is room for 600 operations');
 
   /* C */
-  const own = a => /^(t|q|v|at|user|number|complex|[A-Z_]{3,}|unix|linux|auto|break|case|char|const|continue|default|do|double|else|enum|extern|float|for|goto|if|inline|int|long|register|restrict|return|short|signed|sizeof|static|struct|switch|typedef|union|unsigned|void|volatile|while|asm|typeof)$/.test(a) ? a + '_' : a;
+  const own = a => /^(t|q|v|at|row|user|number|complex|[A-Z_]{3,}|unix|linux|auto|break|case|char|const|continue|default|do|double|else|enum|extern|float|for|goto|if|inline|int|long|register|restrict|return|short|signed|sizeof|static|struct|switch|typedef|union|unsigned|void|volatile|while|asm|typeof)$/.test(a) ? a + '_' : a;
   const bare = ([kind, left, right]) => kind === 'number' || kind !== 'name' && bare(left) && (!right || bare(right));
   const met = new Set();
   /* level: 1 of a sum, 2 of a product, 3 of what binds more; whole numbers among themselves would divide as such */
@@ -197,5 +204,7 @@ function lagrange(text) {
   let c = `LAGRANGIAN(own, ${n})\n{\n${body([['return ', 'L']], used, 'number', '')}}`;
   const acting = forced.flatMap((a, i) => a ? [[`at->f[${i}] += `, a]] : []);
   if (acting.length) c += `\n\nGVI_POINTS(force, ${n}, v, f)(const gvi_points *at, void *user)\n{\n${body(acting, [...made], 'double', 'at->')}    return (void)user, 0;\n}`;
-  return { names, q, v, n, steps, length, draw, rods, force: acting.length ? force : [], end, timed: hasTime, c };
+  for (const [name, list] of [['HOLDS(holds', holds], ['ROLLS(rolls', rolls]])
+    if (list.length) c += `\n\n${name}, ${n}, ${list.length})\n{\n${body(list.map((a, i) => [`row[${i}] = `, a]), [...made], 'number', '')}}`;
+  return { names, q, v, n, steps, length, draw, rods, force: acting.length ? force : [], holds: places0(holds), rolls: places0(rolls), end, timed: hasTime, c };
 }

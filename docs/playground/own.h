@@ -91,18 +91,19 @@ static int own_sentence(char *to, size_t room, const char *form, ...)
 }
 
 enum { OWN_MOST = 600,                 /* operations                                       */
-       OWN_INPUTS = 1 + 2*LAGRANGIAN_MOST, OWN_POINTS = 12 };
+       OWN_INPUTS = 1 + 2*LAGRANGIAN_MOST, OWN_POINTS = 12, OWN_ROWS = 4 };
 enum { OWN_CONSTANT, OWN_ADD, OWN_SUBTRACT, OWN_MULTIPLY, OWN_DIVIDE, OWN_POWER,
        OWN_SQRT, OWN_EXP, OWN_LOG, OWN_SIN, OWN_COS, OWN_TAN, OWN_ATAN };
 
 /* What the page writes: operation, operands, constant; q and v at the start; x, y of the picture; where
-   the force on each coordinate is, -1 for none.                                           */
-static double own_typed[4*OWN_MOST + 3*LAGRANGIAN_MOST + 2*OWN_POINTS];
+   the force on each coordinate is, -1 for none; how many constraints there are, how many of them on
+   velocities, and where they are, those last.                                             */
+static double own_typed[4*OWN_MOST + 3*LAGRANGIAN_MOST + 2*OWN_POINTS + 2 + OWN_ROWS];
 
 static struct own {
     int        n, length, whole, points;          /* operations of L, and of the picture as well */
     struct { int op, a, b; double c; } step[OWN_MOST];
-    int        at[2*OWN_POINTS], force[LAGRANGIAN_MOST], forced;
+    int        at[2*OWN_POINTS], force[LAGRANGIAN_MOST], forced, row[OWN_ROWS], holds, rolls;
     double     value[OWN_INPUTS + OWN_MOST], tangent[OWN_INPUTS + OWN_MOST];
     double     adjoint[OWN_INPUTS + OWN_MOST], bent[OWN_INPUTS + OWN_MOST];  /* bent: its tangent */
     double     slope[OWN_MOST][2], turn[OWN_MOST][2];    /* dy/da, dy/db and their tangents   */
@@ -147,15 +148,15 @@ static void own_forward(int count)
     }
 }
 
-/* L, its gradient in adjoint (t, q, v), and in bent the change of that along the direction in tangent. */
-static double own_sweep(void)
+/* The value at `last`, its gradient in adjoint (t, q, v), and in bent the change of that along the direction in tangent. */
+static double own_sweep(int last)
 {
-    const int inputs = 1 + 2*own.n, last = inputs + own.length - 1;
-    own_forward(own.length);
+    const int inputs = 1 + 2*own.n;
+    own_forward(last + 1 - inputs);
     memset(own.adjoint, 0, sizeof(double)*(size_t)last);
     memset(own.bent, 0, sizeof(double)*(size_t)(last + 1));
     own.adjoint[last] = 1;
-    for (int k = own.length - 1; k >= 0; --k) {
+    for (int k = last - inputs; k >= 0; --k) {
         const double y = own.adjoint[inputs + k], dy = own.bent[inputs + k];
         const int operand[2] = { own.step[k].a, own.step[k].b };
         for (int i = 0; i < 2; ++i) {
@@ -174,8 +175,10 @@ static void own_state(double t, const double *q, const double *v)
     memset(own.tangent, 0, sizeof(double)*(size_t)(1 + 2*own.n));
 }
 
-/* lagrangian_function.add                                                                 */
-static void own_add(const lagrangian_wanted *a)
+static int own_last(void) { return 2*own.n + own.length; }
+
+/* lagrangian_function.add of what is at `last`, as row r                                  */
+static void own_add_row(const lagrangian_wanted *a, int last, int r)
 {
     const gvi_points *x = a->x;
     const int n = own.n, R = x->stride;
@@ -187,14 +190,42 @@ static void own_add(const lagrangian_wanted *a)
             w[i] = a->times*(a->w ? a->w[i*R + k] : i == a->one);
         }
         own_state(x->t[k], q, w);
-        const double L = own_sweep(), *slope = own.adjoint + 1;
+        const double L = own_sweep(last), *slope = own.adjoint + 1;
         for (int i = 0; i < n && a->by_q; ++i)
-            if (!(fabs(slope[i]) <= a->least*fabs(L))) a->by_q[i*R + k] += a->scale*slope[i];
+            if (!(fabs(slope[i]) <= a->least*fabs(L))) a->by_q[(r*n + i)*R + k] += a->scale*slope[i];
         for (int i = a->first; i < a->end && a->by_w; ++i)
-            a->by_w[i*a->apart + k] += a->scale*slope[n + i];
+            a->by_w[(r*n + i)*a->apart + k] += a->scale*slope[n + i];
         for (int d = 0; d < 2*n && a->along; ++d) a->by_along[k] += a->scale*a->along[d]*slope[d];
-        if (a->value) a->value[k] += a->scale*L;
+        if (a->by_t) a->by_t[r*R + k] += a->scale*own.adjoint[0];
+        if (a->value) a->value[r*R + k] += a->scale*L;
     }
+}
+
+static void own_add(const lagrangian_wanted *a) { own_add_row(a, own_last(), 0); }
+
+static void own_add_holds(const lagrangian_wanted *a)
+{
+    for (int r = 0; r < own.holds; ++r) own_add_row(a, own.row[r], r);
+}
+
+static void own_add_rolls(const lagrangian_wanted *a)
+{
+    for (int r = 0; r < own.rolls; ++r) own_add_row(a, own.row[own.holds + r], r);
+}
+
+/* As HOLDS and ROLLS make them                                                            */
+static int own_holds(const gvi_points *x, void *user)
+{
+    const lagrangian_function f = { own.n, own_add_holds };
+    double room[4*LAGRANGIAN_MOST + 2*OWN_ROWS];
+    return lagrangian_holds(&f, own.holds, room, x, user);
+}
+
+static int own_rolls(const gvi_points *x, void *user)
+{
+    const lagrangian_function f = { own.n, own_add_rolls };
+    double room[4*LAGRANGIAN_MOST + 2*OWN_ROWS];
+    return lagrangian_rolls(&f, own.rolls, room, x, user);
 }
 
 /* f += the forces that are typed                                                          */
@@ -224,13 +255,13 @@ static void own_accelerate(double t, const double *q, const double *v, double *a
     own_state(t, q, v);
     for (int j = 0; j < n; ++j) {
         own.tangent[1 + n + j] = 1;
-        own_sweep();
+        own_sweep(own_last());
         own.tangent[1 + n + j] = 0;
         for (int i = 0; i < n; ++i) M[i*n + j] = own.bent[1 + n + i];
     }
     own.tangent[0] = 1;
     memcpy(own.tangent + 1, v, sizeof(double)*(size_t)n);
-    own_sweep();
+    own_sweep(own_last());
     for (int i = 0; i < n; ++i) a[i] = own.adjoint[1 + i] - own.bent[1 + n + i];
     if (own.forced) own_force(t, q, v, a, 1);
     if (gvi_lu_factor(n, M, pivot) == GVI_OK) gvi_lu_solve(n, M, pivot, a);
@@ -241,7 +272,7 @@ static void own_accelerate(double t, const double *q, const double *v, double *a
 static double own_energy(double t, const double *q, const double *v)
 {
     own_state(t, q, v);
-    double E = -own_sweep();
+    double E = -own_sweep(own_last());
     for (int i = 0; i < own.n; ++i) E += v[i]*own.adjoint[1 + own.n + i];
     return E;
 }
@@ -254,7 +285,15 @@ static void own_build(scene_setup *s)
     const char *what = own.n ? lagrangian_text(&own.L) : "";
     scene_add(s, "L", what, "lagrangian_effect(&L)", 1, lagrangian_effect(&own.L));
     INSTEAD(s, ((gvi_effect){ 0 }));
-    if (own.forced) ADD(s, "F", "forces as typed", 1, ((gvi_effect){ .kind = GVI_FORCE, .points = own_forces }));
+    if (own.forced)
+        scene_add(s, "F", "forces as typed", "{ .kind = GVI_FORCE, .points = force }", 1,
+                  (gvi_effect){ .kind = GVI_FORCE, .points = own_forces });
+    if (own.holds)
+        scene_add(s, "constraints", "0 = g(t,q)", "{ .kind = GVI_CONSTRAINT, .points = holds, .rows = ROWS }", 1,
+                  (gvi_effect){ .kind = GVI_CONSTRAINT, .points = own_holds, .rows = own.holds });
+    if (own.rolls)
+        scene_add(s, "rolling", "0 = A(t,q)v + a(t,q)", "{ .kind = GVI_NONHOLONOMIC, .points = rolls, .rows = ROWS }", 1,
+                  (gvi_effect){ .kind = GVI_NONHOLONOMIC, .points = own_rolls, .rows = own.rolls });
     s->mass = lagrangian_mass(&own.L);
     s->mass_text = "lagrangian_mass(&L)";
     s->accelerate = own_accelerate;
@@ -288,10 +327,20 @@ static scene own_scene = {
     .build = own_build, .view = 1, .place = own_place, .radius = own_radius,
 };
 
+/* At the start; a row on velocities has to be linear in them.                              */
+static const char *own_refused(const double *q)
+{
+    double t = 0, A[OWN_ROWS*LAGRANGIAN_MOST], a[OWN_ROWS];
+    const char *why = NULL;
+    if (own.rolls)
+        own_rolls(&(gvi_points){ .n = own.n, .count = 1, .stride = 1, .t = &t, .q = q, .jacobian = A, .rate = a, .why = &why }, NULL);
+    return why ? "a constraint with velocities is not linear in them" : NULL;
+}
+
 /* Takes over what is in own_typed: NULL, or why lagrangian.h refuses it.                   */
 static const char *own_set(int n, int length, int whole, int points, double span)
 {
-    const double *in = own_typed, *start = in + 4*OWN_MOST;
+    const double *in = own_typed, *start = in + 4*OWN_MOST, *rows = start + 3*LAGRANGIAN_MOST + 2*OWN_POINTS;
     own_scene.n = own.n = n;
     own.length = length;
     own.whole = whole;
@@ -308,7 +357,11 @@ static const char *own_set(int n, int length, int whole, int points, double span
         own.force[i] = (int)start[2*LAGRANGIAN_MOST + 2*OWN_POINTS + i];
         own.forced |= own.force[i] >= 0;
     }
-    return lagrangian_init(&own.L, (lagrangian_function){ n, own_add }, NULL, 0, start, start + n);
+    own.rolls = (int)rows[1];
+    own.holds = (int)rows[0] - own.rolls;
+    for (int i = 0; i < own.holds + own.rolls; ++i) own.row[i] = (int)rows[2 + i];
+    const char *wrong = lagrangian_init(&own.L, (lagrangian_function){ n, own_add }, NULL, 0, start, start + n);
+    return wrong ? wrong : own_refused(start);
 }
 
 #endif

@@ -19,6 +19,10 @@ const FORMULATIONS = ['not set up', 'explicit', 'positions', 'velocities', 'mome
 const METHODS = ['gvi.h', 'Störmer-Verlet', 'Runge-Kutta 4', 'DOP853'];
 const COLOURS = ['gvi', 'verlet', 'rk4', 'dop'];
 
+const effectsOf = i => [...Array(x.scene_number(i, 20, 0)).keys()].map(e => {
+  const T = f => text(x.scene_text(i, f, e)), N = f => x.scene_number(i, f, e);
+  return { name: T(10), what: T(11), code: T(12), on: N(21), kind: N(22) };
+});
 const scenes = [];
 for (let i = 0; i < x.scene_count(); i++) {
   const N = (f, k = 0) => x.scene_number(i, f, k), T = (f, k = 0) => text(x.scene_text(i, f, k));
@@ -26,7 +30,7 @@ for (let i = 0; i < x.scene_count(); i++) {
     centre: [N(8, 0), N(8, 1), N(8, 2)], trails: N(9), fixed: N(10), name: T(0), title: T(1), about: T(2), time: T(3),
     unit: T(4), text: T(5), make: T(6), mass: T(7), length: T(8), radius: [], effects: [], parameters: [], rods: [], kept: [] };
   for (let b = 0; b < s.bodies; b++) s.radius.push(N(11, b));
-  for (let e = 0; e < N(20); e++) s.effects.push({ name: T(10, e), what: T(11, e), code: T(12, e), on: N(21, e), kind: N(22, e) });
+  s.effects = effectsOf(i);
   for (let p = 0; p < 3 && T(20, p); p++) s.parameters.push({ name: T(20, p), unit: T(21, p), low: N(30, p), high: N(31, p), step: N(32, p), value: N(33, p) });
   for (let r = 0; r < 16 && N(42, r); r++) s.rods.push([N(40, r), N(41, r), N(42, r)]);
   for (let k = 0; k < 2 && T(30, k); k++) s.kept.push({ name: T(30, k), unless: T(31, k).split(',') });
@@ -91,6 +95,22 @@ Fθ = A cos(3t) - b θ'           # a force on θ
 θ(0) = 1
 end = 30
 draw = (0, 0) (sin(θ), -cos(θ))`,
+  'two rods, as constraints': `g = 9.81                 # 0 = ... is what always holds
+L = (x'^2 + y'^2 + u'^2 + w'^2)/2 - g*(y + w)
+0 = x^2 + y^2 - 1
+0 = (u - x)^2 + (w - y)^2 - 1
+
+x(0) = 0.6, y(0) = 0.8
+u(0) = 1.6, w(0) = 0.8
+end = 10
+draw = (0, 0) (x, y) (u, w)`,
+  'a skate on a slope': `g = 9.81, s = 0.3         # it glides along its edge alone
+L = (x'^2 + y'^2)/2 + 0.1 θ'^2 + g sin(s) x
+0 = sin(θ) x' - cos(θ) y'
+
+x(0) = 0, y(0) = 0, θ(0) = 0, θ'(0) = 1.5
+end = 10
+draw = (y - 0.2 sin(θ), -x + 0.2 cos(θ)) (y + 0.2 sin(θ), -x - 0.2 cos(θ))`,
   'a pendulum whose pivot shakes': `A = 0.1, w = 60, g = 9.81    # Kapitza: it stays upright
 y = A*cos(w*t)
 L = va^2/2 - A*w*sin(w*t)*va*sin(a) + g*cos(a)
@@ -106,6 +126,7 @@ function put(r) {
   numbers.set([...r.q, ...r.v], room + 2400);
   numbers.set(r.draw, room + 2416);
   numbers.set(r.names.map((_, i) => r.force[i] ?? -1), room + 2440);
+  numbers.set([r.holds.length + r.rolls.length, r.rolls.length, ...r.holds, ...r.rolls], room + 2448);
   return text(x.own_take(r.n, r.length, r.steps.length, r.draw.length / 2, r.end));
 }
 /* Takes what is typed: the sentence that says what is wrong, or ''. What ran before goes on then. */
@@ -121,9 +142,8 @@ function own(typed) {
   const bits = list => list.reduce((sum, i) => sum | 1 << i, 0);
   Object.assign(mine, { n: r.n, span: r.end, speed: r.end / 10, bodies: points.length, rods, timed: r.timed, text: r.c, radius: points.map(i => still(i) ? rods.length ? 4 : 10 : 7),
     fixed: bits(points.filter(still)), trails: bits(ends.filter(i => !still(i))), mark: Math.random() });
-  const one = { name: 'L', what: text(x.scene_text(mine.i, 11, 0)), code: 'lagrangian_effect(&L)', on: 1, kind: x.scene_number(mine.i, 22, 0) };
-  mine.effects = r.force.length ? [one, { name: 'F', what: 'forces as typed', code: '{ .kind = GVI_FORCE, .points = force }', on: 1, kind: 1 }] : [one];
-  mine.first = r.force.length ? 3 : 1;
+  mine.effects = effectsOf(mine.i).map(e => ({ ...e, code: e.code.replace('ROWS', e.kind === 5 ? r.rolls.length : r.holds.length) }));
+  mine.first = 2 ** mine.effects.length - 1;
   return tryOut(), '';
 }
 /* A run by the dial: its steps tell one that suits, and where it goes is what is seen. */
@@ -842,7 +862,7 @@ ${on.map(e => `        ${e.code},`).join('\n')}
 ` : ''}${kicks && j.rule === 'verlet' ? '    const double nodes[] = { 0, 1 }, weights[] = { 0.5, 0.5 };\n' : kicks ? kicks8() : ''}    gvi_desc desc = { .n = ${s.n}, .degree = ${j.degree},${kicks ? ` .rule = { GVI_KICKS, ${j.rule === 'verlet' ? 2 : 18}, nodes, weights },` : rule}${j.tol ? ` .tolerance = ${j.tol.toExponential(0)},` : ''}${j.dial ? ` .resolution = ${j.dial.toExponential(0)},` : ''}${on.length ? `
                       .effects = effects, .effect_count = ${on.length}` : ''} };
     gvi_stepper st;
-${s.make ? `    ${s.make}\n` : ''}${s.mass ? `    desc.mass = ${s.mass.replace(/^\((\(.*)\)$/, '$1')};\n${held() ? '    desc.mass.velocity = NULL;                  // with constraints gvi.h solves for it\n' : ''}` : ''}    double *memory = malloc(gvi_size(&desc));
+${s.make ? `    ${s.make}\n` : ''}${s.mass ? `    desc.mass = ${s.mass.replace(/^\((\(.*)\)$/, '$1')};\n${held() && !typed ? '    desc.mass.velocity = NULL;                  // with constraints gvi.h solves for it\n' : ''}` : ''}    double *memory = malloc(gvi_size(&desc));
     if (gvi_init(&st, &desc, memory, gvi_size(&desc)) == GVI_OK) gvi_start(&st, 0, q, v);
     ${j.dial ? `while (st.status == GVI_OK && st.t < ${C(s.span)}) gvi_advance(&st, ${C(s.span)});` : tau ? `while (st.status == GVI_OK && st.t < ${C(s.span)}) gvi_step(&st, ${C(j.h)});      // h in tau` : `for (int k = 0; k < ${steps} && st.status == GVI_OK; ++k) gvi_step(&st, ${C(s.span)}/${steps});`}
     printf("%s at t = %.17g\\n", gvi_why(&st), st.t);

@@ -266,7 +266,7 @@ static int rival_begin(rival *r, int method, int n, const scene_setup *s, unsign
     for (int e = 0; e < s->rows; ++e) {
         const gvi_effect *effect = &s->row[e].force;
         if (!(on >> e & 1) || effect->kind == GVI_CLOCK || !effect->points) continue;
-        if (effect->kind == GVI_CONSTRAINT) { r->on |= 1u << e; continue; }
+        if (effect->kind == GVI_CONSTRAINT && !s->accelerate) { r->on |= 1u << e; continue; }
         if (effect->kind != GVI_POTENTIAL && effect->kind != GVI_FORCE) return -1;
         /* a force that reads no v would do, but nothing says that it does not              */
         if (effect->kind == GVI_FORCE && effect->points != motor_force) r->reads_velocity = 1;

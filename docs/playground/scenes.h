@@ -85,7 +85,10 @@ static inline int scene_hold(const scene_setup *s, unsigned on, int n, double t,
         for (int i = 0; i < a->rows; ++i) g[m+i] = rate[m+i] = 0;
         a->points(&(gvi_points){ .n = n, .count = 1, .stride = 1, .t = &t, .q = q, .g = g + m,
                                  .jacobian = G + m*n, .rate = rate + m }, a->user);
-        for (int i = 0; i < a->rows*n && a->kind == GVI_NONHOLONOMIC; ++i) g[m+i/n] += G[m*n+i]*v[i%n];
+        for (int i = 0; i < a->rows && a->kind == GVI_NONHOLONOMIC; ++i) {
+            g[m+i] = rate[m+i];
+            for (int j = 0; j < n; ++j) g[m+i] += G[(m+i)*n+j]*v[j];
+        }
         m += a->rows;
     }
     return m;

@@ -12,11 +12,12 @@ export const EXAMPLES = new Function(`return ${/const EXAMPLES = (\{[^]*?\n\});/
 
 /* What own_take is given, and what own_room holds then. */
 export function handedOver(text) {
-  const r = lagrange(text), room = new Float64Array(2448);
+  const r = lagrange(text), room = new Float64Array(2454);
   r.steps.forEach((s, k) => room.set(s, 4*k));
   room.set([...r.q, ...r.v], 2400);
   room.set(r.draw, 2416);
   room.set(r.names.map((_, i) => r.force[i] ?? -1), 2440);
+  room.set([r.holds.length + r.rolls.length, r.rolls.length, ...r.holds, ...r.rolls], 2448);
   return { r, room, given: [r.n, r.length, r.steps.length, r.draw.length/2, r.end] };
 }
 
@@ -73,6 +74,7 @@ function test(wasm, build) {
     ['L = 2\nx', 2, 1, /sign such as \* is missing before "x"/], ['L = 2x + vy^2\ny(0) = 1', 1, 6, /x is not known/], ['L = sin^x(x)\nx(0) = 1', 1, 9, /whole number belongs here/], ['F = 1\nL = vx^2 + vy^2\nx(0) = 1, y(0) = 1', 1, 1, /a force on x is Fx/], ['x(0) = 1\nL = vx^2 -', 2, 11, /not the end/], ['x(0) = 1\nL = (vx^2', 2, 10, /"\)" is missing before the end/],
     ['L = vx^2/2 - abs(x)\nx(0) = 1', 1, 14, /abs has a kink, and L has to be smooth/], ['L = foo(x)', 1, 5, /foo is not a function; there are sqrt, exp/],
     ['x(0) = 1\nL = vx^2 - k*x', 2, 12, /k is not known/], ['L = vx^2 $', 1, 10, /not with "\$"/], ['L = vx^2/2', 1, 11, /no coordinate/], ['x(0) = 1', 1, 9, /"L = \.\.\." is missing/],
+    ['L = vx^2\n0 = 3\nx(0) = 1', 2, 1, /has to depend on a coordinate/], ['L = vx^2\n0 = x 0 = x 0 = x 0 = x\n0 = 2x\nx(0) = 0', 3, 1, /room for 4 constraints/], ['L = vx^2\n0 = x - k\nx(0) = 0', 2, 9, /k is not known/],
     ['x(0) = y\ny(0) = 1\nL = vx^2', 1, 1, /x\(0\) has to be a number: it depends on what moves/], ['L = vx^2 + a\na = b\nb = a\nx(0) = 1', 3, 5, /a depends on itself/],
     ['L = vx^2 x(0) = 0\ndraw = (vx, 0)', 2, 1, /not of velocities/], ['sin = 3', 1, 1, /sin has a meaning/], ['a = 1/0\nL = a*vx^2 x(0) = 1', 1, 1, /a is no finite number/],
     ['x = 3\nL = vx^2 x(0) = 1', 1, 1, /x is a coordinate/], ['L = pow(x) x(0) = 1', 1, 10, /pow takes two/], ['L = vx^2\nL = 3 x(0) = 1', 2, 1, /L is given twice/], ['L = vx^2 x(0) = 1 end = -1', 1, 19, /end has to be above 0/],
@@ -83,7 +85,7 @@ function test(wasm, build) {
     check(`${JSON.stringify(typed)} is refused`, said.startsWith(`Line ${line}, column ${column ?? ''}`) && why.test(said), said);
   }
   /* whatever is typed: a sentence with its place, or operations whose operands come before them */
-  const WORDS = ['L', '=', 'x', 'vx', 'y', 'vy', '(', ')', '(0)', '=', '1', '2.5', '+', '-', '*', '/', '^', ',', '\n', 'sin', 'pow', 't', 'pi', 'end', 'draw', 'a', '#', '$', 'L = vx^2', 'x(0) = 1', 'q', 'v', 'q(0)=', '\'', '.', 'e5', 'θ', 'x\'', '²', 'Fx', 'ln', 'cosh'];
+  const WORDS = ['L', '=', 'x', 'vx', 'y', 'vy', '(', ')', '(0)', '=', '1', '2.5', '+', '-', '*', '/', '^', ',', '\n', 'sin', 'pow', 't', 'pi', 'end', 'draw', 'a', '#', '$', 'L = vx^2', 'x(0) = 1', 'q', 'v', 'q(0)=', '\'', '.', 'e5', 'θ', 'x\'', '²', 'Fx', 'ln', 'cosh', '0 ='];
   let seed = 1, whole = 0, wrong = '';
   for (let k = 0; k < 100000; k++) {
     let typed = k % 2 ? 'x(0) = 1 L = vx^2/2 + ' : '';
@@ -136,6 +138,24 @@ function test(wasm, build) {
   take('θ = 1\nL = x\'^2/2 + y\'^2/2 - θ x\nFy = -y\'\nx(0) = 0, y(0) = 0, y\'(0) = 1');
   check('a force on one of two', far(end(OWN, 3, 0.05, 1), [-0.5, 1 - Math.exp(-1)]) < 1e-13);
 
+  /* constraints and rolling, lesson 52's formulas: a wire that turns, a knife edge on a slope, x in lengths of its curve */
+  const ROWS = [
+    ['a turning wire', "L = (x'^2 + y'^2)/2\n0 = cos(0.5 t) y - sin(0.5 t) x\nx(0) = 1, y(0) = 0, y'(0) = 0.5", [Math.cosh(1)*Math.cos(1), Math.cosh(1)*Math.sin(1)], 2],
+    ['a knife edge', "g = 9.81, s = 0.3\nL = (x'^2 + y'^2)/2 + 0.1 θ'^2 + g sin(s) x\n0 = sin(θ) x' - cos(θ) y'\nx(0) = 0, y(0) = 0, θ(0) = 0, θ'(0) = 1.5",
+      (k => [k*Math.sin(3)**2, k*(3 - Math.sin(3)*Math.cos(3)), 3])(9.81*Math.sin(0.3)/4.5), 2],
+    ['a wheel that is driven', "L = (x'^2 + y'^2)/2\n0 = y' - 2 t, 0 = x' - y\nx(0) = 0, y(0) = 1, x'(0) = 1", [2 + 8/3, 5], 2],
+    ['a pendulum as a constraint and a force', "a = 1\nL = (x'^2 + y'^2)/2\nFy = -3 a\n0 = (x^2 + y^2 - a)/2\nx(0) = 0.6, y(0) = -0.8", end(OWN, 1, 0.01, 2, take("L = φ'^2/2 + 3 cos(φ)\nφ(0) = asin(0.6)") && 0).flatMap(a => [Math.sin(a), -Math.cos(a)]), 2],
+  ];
+  for (const [name, typed, exact, span] of ROWS) {
+    const r = take(typed), on = (1 << (1 + (r.force.length > 0) + (r.holds.length > 0) + (r.rolls.length > 0))) - 1, off = far(end(OWN, on, 0.02, span), exact);
+    check(`${name}: its formula`, !r.why && off < 1e-12, r.why, off);
+    open(OWN, on);
+    x.world_advance(1, 0.02, 50);
+    check(`${name}: what is typed holds`, x.world_number(1, 22, 0) < 1e-14, x.world_number(1, 22, 0));
+    check(`${name}: no rival has it`, x.race_begin(1, 3, 1e-9, span) !== 0);
+  }
+  check('a row with velocities squared is refused', /not linear/.test(take("L = (x'^2 + y'^2)/2\n0 = x'^2 - y'\nx(0) = 0, y(0) = 0").why));
+
   /* second derivatives of everything: where v is within f, DOP853 needs them and Galerkin steps do not */
   for (const f of ['sqrt(u)', 'exp(u)', 'log(u)', 'sin(u)', 'cos(u)', 'tan(u)', 'u^3', 'u^-1.5', 'u^0.3', '2^u', 'u^u', '1/u', 'u*u/(1 + u)', 'u*t - u', 'atan(u)', 'atan(9*u)', 'sinh(u)', 'cosh(u)', 'tanh(u)', 'asin(u/2)', 'sin^3(u)']) {
     take(`u = 0.7 + x/8 + vx/9 + y*vy/7\nL = 3*vx^2 + 2*vy^2 - x^2 + x*y + ${f}\nx(0) = 0.3, y(0) = 0.2, vx(0) = 0.1 vy(0) = -0.2`);
@@ -149,19 +169,21 @@ function test(wasm, build) {
     'names of C': 'int = 2, user = 1, main = 3\nL = vdouble^2/2 - int*double^2*user/main + v^2/2 - q^2\ndouble(0) = 1, q(0) = 0.5 end = 2',
     'powers': 'L = vx^2/2*(1 + x^2)^1.5 - 2^x - x^-1 - pow(x, 3) - (x + 2)^x + tan(x/4) - log(x)*exp(-x)\nx(0) = 1 end = 1',
     'forces': "at = 2, int = 0.5\nθ = x - y\nL = x'²/2 + at y'²/2 - cosh(θ) + sin²(x)\nFx = -int x' + sin(t) θ\nFy = tanh(x) - at^2 atan(y')\nx(0) = 0.4, y(0) = 0 end = 2",
+    'rows': "row = 2, r = x^2 + y^2\nL = (x'^2 + y'^2 + z'^2)/2 - row z\n0 = r - row/2\n0 = z' - x y' + y x' - sin(t)/3\nFz = -z'\nx(0) = 0.6, y(0) = 0.8, x'(0) = 0.8, y'(0) = -0.6, z(0) = 0, z'(0) = -1 end = 2",
     'order': 'L = vx^2/2 + a - b\nb = a - (x - a*2)/(3*x/2)\na = -x^2/2 - (-x)\nx(0) = 0.4 end = 1' };
   const cc = (...given) => execFileSync(process.env.CC || 'cc', ['-std=c99', '-I.', '-Iexamples', ...given], { stdio: ['ignore', 'inherit', 'inherit'] });
   const library = join(build, 'typed-gvi.o');
   cc('-O1', '-DGVI_IMPLEMENTATION', '-xc', '-c', 'gvi.h', '-o', library);
   for (const [name, typed] of Object.entries(TRAPS)) {
-    const r = take(typed), source = join(build, 'typed.c'), binary = join(build, 'typed'), steps = 2000;
+    const r = take(typed), more = [[r.force, 'FORCE, .points = force'], [r.holds, `CONSTRAINT, .points = holds, .rows = ${r.holds.length}`], [r.rolls, `NONHOLONOMIC, .points = rolls, .rows = ${r.rolls.length}`]]
+      .flatMap(([list, effect]) => list.length ? `, { .kind = GVI_${effect} }` : []), source = join(build, 'typed.c'), binary = join(build, 'typed'), steps = 2000;
     const chaos = name === 'a double pendulum' || name === 'a pendulum on a cart' ? 1e-10 : 1e-12, span = Math.min(r.end, 5);
     writeFileSync(source, `#include "tools/lagrangian.h"\n${r.c}\nint main(void)\n{\n    static double memory[1 << 17];\n    static lagrangian L;\n    const double q[] = { ${r.q} }, v[] = { ${r.v} };
-    const char *wrong = lagrangian_init(&L, own, NULL, 0, q, v);\n    const gvi_effect effect[] = { lagrangian_effect(&L)${r.force.length ? ', { .kind = GVI_FORCE, .points = force }' : ''} };\n    const gvi_desc desc = { .n = ${r.n}, .degree = 4, .mass = lagrangian_mass(&L), .effects = effect, .effect_count = ${r.force.length ? 2 : 1} };
+    const char *wrong = lagrangian_init(&L, own, NULL, 0, q, v);\n    const gvi_effect effect[] = { lagrangian_effect(&L)${more.join('')} };\n    const gvi_desc desc = { .n = ${r.n}, .degree = 4, .mass = lagrangian_mass(&L), .effects = effect, .effect_count = ${1 + more.length} };
     gvi_stepper st;\n    if (wrong) return puts(wrong), 1;\n    gvi_init(&st, &desc, memory, sizeof memory);\n    gvi_start(&st, 0, q, v);\n    for (int k = 0; k < ${steps}; ++k) gvi_step(&st, ${span}.0/${steps});\n    for (int i = 0; i < ${r.n}; ++i) printf("%.17g\\n", st.q[i]);\n    puts(lagrangian_text(&L));\n    return st.status;\n}\n`.replace(/(\.\d+)\.0\//, '$1/'));
     try {
       cc('-Wall', '-Wextra', '-Wpedantic', '-Wconversion', '-Werror', source, library, '-o', binary, '-lm');
-      const said = execFileSync(binary, { encoding: 'utf8' }).trim().split('\n'), kind = said.pop(), q = said.map(Number), here = end(OWN, r.force.length ? 3 : 1, span/steps, span), off = far(here, q);
+      const said = execFileSync(binary, { encoding: 'utf8' }).trim().split('\n'), kind = said.pop(), q = said.map(Number), here = end(OWN, 2 ** (1 + more.length) - 1, span/steps, span), off = far(here, q);
       check(`${name}: the C ends where the page does`, !r.why && kind === r.kind && off < chaos*Math.max(1, ...q.map(Math.abs)), r.why, kind, off, q, here);
     } catch (e) { check(`${name}: the C compiles`, false, e.message, r.c); }
   }
