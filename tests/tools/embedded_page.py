@@ -85,7 +85,7 @@ def chapters():
 
 
 def cost():
-    """sections of cost-embedded by type and scene; of each table those rows that the page has"""
+    """sections of cost-embedded by type; of the last table those rows that the page has"""
     parts, kind, part = {}, '', ''
     for line in printed['cost']:
         m = re.match(r'Cortex-M\w+, (float|double)', line)
@@ -94,31 +94,19 @@ def cost():
             part = cells(line)[0].split(';')[0]
         if line.startswith('|'):
             parts.setdefault((kind, part), []).append(cells(line))
-    tables = {'Orbit, h': ('float', 'orbit of eccentricity 0.3'), 'Arm of two links': ('float', 'arm of two links, M(q), no friction'),
-              '| scene, type': ('', 'scene')}
-    table = None
-    for i, line in enumerate(list(page)):
-        table = next((t for begin, t in tables.items() if line.startswith(begin)), table)
+    start = next(i for i, x in enumerate(page) if x.startswith('| scene, type'))
+    for line in page[start + 2:]:
+        if not line.startswith('| '):
+            break
         row = cells(line)
-        if not table or not line.startswith('| ') or line.startswith(('| setting', '| steps', '| scene')):
-            continue
-        if table[1] == 'scene':
-            scene, kind = row[0].split(', ')
-            known, of = [scene, row[1]], (kind, 'scene')
-        else:
-            known, of = [row[0].replace('`mass.velocity`', 'v given')], table
-            known += [row[1].split(':')[0]]
-        found = [r for r in parts[of] if [r[0], r[1].split(':')[0]][:len(known)] == known]
+        scene, kind = row[0].split(', ')
+        found = [r for r in parts[kind, 'scene'] if r[:2] == [scene, row[1]]]
         if len(found) != 1:
             missing.append(' | '.join(row[:2]))
             continue
         new = found[0][1:]
-        if table[1] != 'scene':
-            del new[3]                                          # the first three steps
-        else:
-            new[1:3] = new[1].replace(' by hand', ''), new[2].replace('v given', '`mass.velocity`')
-        put([row[0], row[1]] if table[1] == 'scene' else [row[0]] + ([new[0]] if len(known) > 1 else []),
-            new[1:] if table[1] == 'scene' or len(known) > 1 else new, line[:40])
+        new[1:3] = new[1].replace(' by hand', ''), new[2].replace('v given', '`mass.velocity`')
+        put(row[:2], new[1:], line[:40])
 
 
 boards(), firmware(), size(), chapters(), cost()
