@@ -109,8 +109,9 @@ L = (x'^2 + y'^2)/2 + 0.1 θ'^2 + g sin(s) x
 0 = sin(θ) x' - cos(θ) y'
 
 x(0) = 0, y(0) = 0, θ(0) = 0, θ'(0) = 1.5
-end = 10
-draw = (y - 0.2 sin(θ), -x + 0.2 cos(θ)) (y + 0.2 sin(θ), -x - 0.2 cos(θ))`,
+end = 6
+draw = (y - 0.4 sin(θ), -x + 0.4 cos(θ))
+       (y + 0.4 sin(θ), -x - 0.4 cos(θ))`,
   'a pendulum whose pivot shakes': `A = 0.1, w = 60, g = 9.81    # Kapitza: it stays upright
 y = A*cos(w*t)
 L = va^2/2 - A*w*sin(w*t)*va*sin(a) + g*cos(a)
@@ -194,6 +195,7 @@ function remember() {
 function start(typed = set.L || EXAMPLES['a double pendulum']) {
   if (good && typed === set.L) return '';
   $('typed').value = typed;
+  $('examples').selectedIndex = Object.values(EXAMPLES).indexOf(typed);
   return takeTyped(typed);
 }
 /* What the address says is handed to the library as it is: the library judges. */
