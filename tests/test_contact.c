@@ -269,6 +269,53 @@ TEST(balls_that_touch_are_hit_together_or_in_turn)
     }
 }
 
+GAP(box) { *phi = a % 2 ? 1 - q[a/2] : q[a/2], G[a/2] = a % 2 ? -1 : 1; }
+
+/* Two balls on lines of their own between walls at 0 and 1, 17 impacts: in one step or by the dial, forth and back */
+TEST(all_impacts_of_a_step_come_in_their_order)
+{
+    const real e[] = { 1, 1, 1, 1 }, q[] = { R(0.4), R(0.7) }, v[] = { 1, R(-0.7) }, T = R(10.3);
+    for (int run = 0; run < 4; ++run) {
+        const real way = run % 2 ? -1 : 1;
+        contact c = { .count = 4, .slots = 2, .gap = box, .e = e };
+        begin(&c, (gvi_desc){ .n = 2, .degree = 3, .resolution = run < 2 ? 0 : sqrt(EPS) }, 0, q, v);
+        if (run < 2) go(&c, way*T, 1);
+        while (run > 1 && way*c.st.t < T) assert_ok(contact_advance(&c, way*T));
+
+        real x[2] = { q[0], q[1] }, u[2] = { way*v[0], way*v[1] }, left[2], t = 0;
+        int k = 0;
+        for (; ; ++k) {                                               // by the next of the two alone
+            for (int i = 0; i < 2; ++i) left[i] = u[i] > 0 ? (1 - x[i])/u[i] : -x[i]/u[i];
+            const int i = left[1] < left[0];
+            if (t + left[i] > T) break;
+            assert_between(k + 1, events, LOG);
+            assert_int_equal(seen[k].which, 2*i + (u[i] > 0));
+            assert_close(seen[k].t, way*(t += left[i]), 100*EPS*T);
+            x[!i] += u[!i]*left[i], x[i] = u[i] > 0, u[i] = -u[i];
+        }
+        assert_int_equal(events, k);
+        assert_int_equal(c.seen[CONTACT_IMPACT], k);
+        for (int i = 0; i < 2; ++i) assert_close(c.st.q[i], x[i] + u[i]*(T - t), 100*EPS*T);
+    }
+}
+
+GVI_EACH(spring, 1, f) { x->f[0] -= x->q[0]; }
+GAP(near_the_turn) { *phi = q[0] + R(0.9), G[0] = 1; }
+
+/* A step of two periods, which ends as far from the wall as it starts, and as much at rest */
+TEST(a_long_step_does_not_pass_over_a_wall)
+{
+    const real e = 1, at = acos(R(-0.9));
+    for (int s = 24; s <= 32; s += 4) {
+        contact c = { .count = 1, .slots = 1, .gap = near_the_turn, .e = &e };
+        list[0] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = spring };
+        begin(&c, (gvi_desc){ .n = 1, .degree = s }, 1, (real[]){ 1 }, (real[]){ 0 });
+        go(&c, 4*acos(R(-1.0)), 1);
+        assert_int_equal(events, 2);
+        for (int i = 0; i < 2; ++i) assert_close(seen[i].t, (real)(2*i + 1)*at, KIND == 1 ? R(1e-4) : R(1e-9));
+    }
+}
+
 GAP(disc)
 {
     const real X = q[0] - R(5.3), Y = q[1] - R(0.05), r = sqrt(X*X + Y*Y);
