@@ -102,7 +102,7 @@ typedef struct contact {
     contact_row      row[CONTACT_TOUCH];
     contact_state    saved[3];             /* before the call; before the step; before a look ahead       */
     contact_gap     *sample[2];            /* [count] at two places of the step, sample[last] the later   */
-    gvi_real        *memory, *probe_memory, *q, *v, *u, *w, *at, *G, *R, *touches, *wait, *size, *lambda, h, way;
+    gvi_real        *memory, *probe_memory, *q, *v, *u, *w, *at, *G, *R, *touches, *wait, *size, *unit, *lambda, h, way;
     const char      *why;
     int              first, before, on;    /* effect and row of slot 0; the first `on` slots press        */
     int              fresh, last;          /* has no step been made?                                      */
@@ -200,8 +200,9 @@ static inline contact_gap contact__gap(contact *c, int a, gvi_real t, const gvi_
         moves += contact__abs(G[i]*v[i]);
         lies += contact__abs(G[i]*q[i]);
     }
-    g.tiny = 256*contact__eps*moves;
-    g.noise = 64*contact__eps*(lies + contact__abs(own*t) + c->h*moves + c->size[a]) + c->touch;
+    g.noise = 64*contact__eps*(lies + contact__abs(own*t) + c->h*moves + c->size[a]);
+    g.tiny = 256*contact__eps*moves + (c->h > 0 ? g.noise/(16*c->h) : 0);
+    g.noise += c->touch;
     return g;
 }
 
@@ -230,7 +231,7 @@ static inline size_t contact__layout(contact *c, const gvi_desc *desc, gvi_real 
         { &c->memory, a }, { &c->probe_memory, b }, { &c->lambda, rows },
         { &c->q, n }, { &c->v, n }, { &c->u, n }, { &c->w, n }, { &c->at, 2*n },
         { &c->G, CONTACT_TOUCH*n }, { &c->R, CONTACT_TOUCH*n },
-        { &c->impulse, count }, { &c->touches, count }, { &c->wait, count }, { &c->size, count },
+        { &c->impulse, count }, { &c->touches, count }, { &c->wait, count }, { &c->size, count }, { &c->unit, count },
         { &c->saved[0].x, 2*n + count }, { &c->saved[1].x, 2*n + count }, { &c->saved[2].x, 2*n + count },
         { &gap[0], 4*count }, { &gap[1], 4*count }
     };
@@ -423,6 +424,7 @@ static inline gvi_status contact__measure(contact *c, contact_set *s)
         if (w < 0) return contact__fail(c, a, (int)w);
         if (!(w > 0) && c->way*g.rate < -g.tiny) return contact__fail(c, a, CONTACT_E_JAMMED);
         s->which[k] = a, s->speed[k] = c->way*g.rate, s->tiny[k] = g.tiny, s->z[k] = 0;
+        c->unit[a] = GVI_SQRT(w);
         s->k += w > 0;
     }
     for (int i = 0; i < s->k; ++i)
@@ -817,13 +819,16 @@ static inline gvi_status contact__lambda(contact *c)
     return contact__said(c, &c->st, gvi_multipliers(&c->st, c->lambda));
 }
 
-/* The least lambda in parts of the scales, and the rows in which it is below 0 by more than rounding.  */
+/* The least lambda in parts of the scales, and the rows in which it is below 0 by more than rounding.  A row whose scale is
+   rounding of another's has no sign.  */
 static inline gvi_real contact__part(const contact *c, const gvi_real *scale, unsigned *below)
 {
-    gvi_real least = 1;
+    gvi_real least = 1, most = 0;
     *below = 0;
+    for (int k = 0; k < c->on; ++k) most = contact__most(most, scale[k]*c->unit[c->row[k].which]);
     for (int k = 0; k < c->on; ++k) {
-        const gvi_real part = scale[k] > 0 ? c->lambda[c->before + k]/scale[k] : 1;
+        const int counts = scale[k]*c->unit[c->row[k].which] > 1000*contact__eps*most;
+        const gvi_real part = counts ? c->lambda[c->before + k]/scale[k] : 1;
         if (part < least) least = part;
         if (part < -1000*contact__eps) *below |= 1u << k;
     }
