@@ -806,7 +806,7 @@ static inline gvi_status contact__closing(contact *c, const contact_state *from,
         const contact_gap g = contact__gap(c, a, c->st.t, c->q, c->v);
         *part *= at, *which = a, x[0] = 0;
         *undecided = c->touches[a] > 0 && contact__abs(g.rate**part*h) <= 4*g.noise;
-        if (!*undecided || c->way*g.rate >= -g.tiny) continue;
+        if (!*undecided) continue;
         *part = 0;
         status = contact__again(c, from, 0);
     }
