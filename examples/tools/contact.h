@@ -506,7 +506,7 @@ static inline gvi_status contact__impact(contact *c, contact_set *s)
         s->speed[i] = slow && s->after[i] < c->rest ? 0 : s->after[i];
         if (slow && (bounces || s->speed[i] < s->after[i])) contact__tell(c, CONTACT_CAPTURED, a);
     }
-    return GVI_OK;
+    return contact__project(c, -1, c->v, NULL);            // what is left may be rounding of what was
 }
 
 /* ---- what presses ---- */
