@@ -272,26 +272,30 @@ static inline gvi_status contact_init(contact *c, const gvi_desc *desc, gvi_real
 static inline gvi_status contact__check(contact *c, int a, gvi_real t, const gvi_real *q, const gvi_real *v)
 {
     const contact_gap g = contact__gap(c, a, t, q, v);
-    if (!(g.phi >= -g.noise)) return contact__fail(c, a, CONTACT_E_PENETRATES);
+    const int was = c->row[0].which;
+    if (g.phi < -g.noise) return contact__fail(c, a, CONTACT_E_PENETRATES);
     memcpy(c->u, q, (size_t)c->st.n*sizeof *c->u);
     memcpy(c->w, v, (size_t)c->st.n*sizeof *c->w);
     c->row[0].which = a;
     gvi_status status = gvi_init(&c->probe, &c->probe_desc, c->probe_memory, gvi_size(&c->probe_desc));
     if (!status) status = contact__switch(c, &c->probe, 1);
     if (!status) status = contact__said(c, &c->probe, gvi_project(&c->probe, t, c->u, c->w, NULL));
+    c->row[0].which = was;
     return status == GVI_E_ARGUMENT ? contact__fail(c, a, status) : GVI_OK;
 }
 
 /* The first step decides what becomes of contacts that touch already.  */
 static inline gvi_status contact_start(contact *c, gvi_real t, const gvi_real *q, const gvi_real *v)
 {
-    gvi_status status = contact__switch(c, &c->st, 0);
+    gvi_status status = GVI_OK;
+    for (int a = 0; a < c->count && !status; ++a) status = contact__check(c, a, t, q, v);
+    if (status) return status;
+    status = contact__switch(c, &c->st, 0);
     if (!status) status = contact__said(c, &c->st, gvi_start(&c->st, t, q, v));
-    if (status) return contact__fail(c, -1, status);
+    if (status) return (void)contact__switch(c, &c->st, c->on), contact__fail(c, -1, status);
     memset(c->wait, 0, (size_t)c->count*sizeof *c->wait);
     memset(c->size, 0, (size_t)c->count*sizeof *c->size);
     c->on = 0, c->fresh = 1, c->fault = -1;
-    for (int a = 0; a < c->count && !status; ++a) status = contact__check(c, a, t, q, v);
     return status;
 }
 
