@@ -637,7 +637,7 @@ TEST(a_ball_that_lies_in_a_corner_stays_there)
         const real way = run % 2 ? 1 : -1, speed = 32*way*EPS*pow(R(10.0), -(real)(run % 16)/4);
         contact c = { .count = 2, .slots = 2, .gap = corner, .rest = run % 4 < 2 ? R(1e-3) : 0 };
         list[0] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = weight };
-        place = run & 32 ? 1 : 0;
+        place = run & 32 ? R(1.0) : 0;
         begin(&c, (gvi_desc){ .n = 2, .degree = 4 }, 1, (real[]){ place, 0 }, (real[]){ speed, 0 });
         go(&c, 40, 400);
         assert_between(1, events, 10);

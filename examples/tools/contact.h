@@ -75,7 +75,7 @@ typedef struct contact_set {               /* contacts that touch, at one state:
              W[CONTACT_TOUCH*CONTACT_TOUCH], size;
 } contact_set;
 
-typedef struct contact_state {             /* what a step starts from; x: q, p, wait                      */
+typedef struct contact_state {             /* what a step starts from; x: q, p                            */
     gvi_real t, t_low, next, energy, *x;
     int      fresh, on, which[CONTACT_TOUCH];
     unsigned long long seen[CONTACT_KINDS];
@@ -102,7 +102,7 @@ typedef struct contact {
     contact_row      row[CONTACT_TOUCH];
     contact_state    saved[3];             /* before the call; before the step; before a look ahead       */
     contact_gap     *sample[2];            /* [count] at two places of the step, sample[last] the later   */
-    gvi_real        *memory, *probe_memory, *q, *v, *u, *w, *at, *G, *R, *touches, *wait, *size, *unit, *lambda, h, way;
+    gvi_real        *memory, *probe_memory, *q, *v, *u, *w, *at, *G, *R, *touches, *refused, *size, *unit, *lambda, h, way;
     const char      *why;
     int              first, before, on;    /* effect and row of slot 0; the first `on` slots press        */
     int              fresh, last;          /* has no step been made?                                      */
@@ -231,8 +231,8 @@ static inline size_t contact__layout(contact *c, const gvi_desc *desc, gvi_real 
         { &c->memory, a }, { &c->probe_memory, b }, { &c->lambda, rows },
         { &c->q, n }, { &c->v, n }, { &c->u, n }, { &c->w, n }, { &c->at, 2*n },
         { &c->G, CONTACT_TOUCH*n }, { &c->R, CONTACT_TOUCH*n },
-        { &c->impulse, count }, { &c->touches, count }, { &c->wait, count }, { &c->size, count }, { &c->unit, count },
-        { &c->saved[0].x, 2*n + count }, { &c->saved[1].x, 2*n + count }, { &c->saved[2].x, 2*n + count },
+        { &c->impulse, count }, { &c->touches, count }, { &c->refused, count }, { &c->size, count }, { &c->unit, count },
+        { &c->saved[0].x, 2*n }, { &c->saved[1].x, 2*n }, { &c->saved[2].x, 2*n },
         { &gap[0], 4*count }, { &gap[1], 4*count }
     };
     for (size_t i = 0; i < sizeof list/sizeof *list; ++i) {
@@ -293,7 +293,6 @@ static inline gvi_status contact_start(contact *c, gvi_real t, const gvi_real *q
     status = contact__switch(c, &c->st, 0);
     if (!status) status = contact__said(c, &c->st, gvi_start(&c->st, t, q, v));
     if (status) return (void)contact__switch(c, &c->st, c->on), contact__fail(c, -1, status);
-    memset(c->wait, 0, (size_t)c->count*sizeof *c->wait);
     memset(c->size, 0, (size_t)c->count*sizeof *c->size);
     c->on = 0, c->fresh = 1, c->fault = -1;
     return status;
@@ -548,7 +547,6 @@ static inline void contact__tell_changes(contact *c, int was_on, const int *was)
 {
     for (int k = 0; k < was_on; ++k) {
         if (contact__slot(c, was[k]) >= 0) continue;
-        c->wait[was[k]] = 3;
         contact__tell(c, CONTACT_OPENED, was[k]);
     }
     for (int k = 0, old; k < c->on; ++k) {
@@ -599,7 +597,6 @@ static inline void contact__save(contact *c, contact_state *s)
     memcpy(s->seen, c->seen, sizeof c->seen);
     memcpy(s->x, c->st.q, n*one);
     memcpy(s->x + n, c->st.p, n*one);
-    memcpy(s->x + 2*n, c->wait, (size_t)c->count*one);
 }
 
 /* The state that was saved, to the bit; projected again where all that a row measures it by is rounding.  */
@@ -612,7 +609,6 @@ static inline gvi_status contact__back(contact *c, const contact_state *s)
     c->st.t_low = s->t_low, c->energy = s->energy, c->fresh = s->fresh, c->on = s->on;
     for (int k = 0; k < c->on; ++k) c->row[k].which = s->which[k];
     memcpy(c->seen, s->seen, sizeof c->seen);
-    memcpy(c->wait, s->x + 2*n, (size_t)c->count*sizeof *s->x);
     status = contact__switch(c, &c->st, c->on);
     if (status == GVI_E_CONSTRAINT && !(status = contact__load(c))) status = contact__place(c, s->t, s->t_low);
     c->st.next = s->next;
@@ -728,15 +724,13 @@ static inline int contact__closes(contact *c, int a, gvi_real *x)
     return low < -r->noise;
 }
 
-/* Of the gaps that close between the last two samples, at from and to, the first: *which, between x[0] and x[1].  One
-   that has opened without speed is given three steps to be seen open.  */
+/* Of the gaps that close between the last two samples, at from and to, the first: *which, between x[0] and x[1].  */
 static inline void contact__first(contact *c, gvi_real from, gvi_real to, gvi_real *x, int *which)
 {
     for (int a = 0; a < c->count; ++a) {
         const contact_gap *now = &c->sample[c->last][a];
-        const int waits = c->wait[a] > 0 && c->touches[a] > 0 && to < 1;
         gvi_real y[2] = { from, to };
-        if (contact__slot(c, a) < 0 && !waits && contact__closes(c, a, y) && (*which < 0 || y[1] < x[1]))
+        if (contact__slot(c, a) < 0 && contact__closes(c, a, y) && y[1] > c->refused[a] && (*which < 0 || y[1] < x[1]))
             *which = a, x[0] = y[0], x[1] = y[1];
         if (now->phi > now->noise) c->touches[a] = 0;
     }
@@ -798,17 +792,18 @@ static inline gvi_status contact__closing(contact *c, const contact_state *from,
 {
     gvi_real x[2] = { -1, 1 }, at = 0;
     gvi_status status = GVI_OK;
+    memset(c->refused, 0, (size_t)c->count*sizeof *c->refused);
     for (int a = 0; *part > 0 && !(status = contact__find(c, x, &a)) && a >= 0; ) {
-        const gvi_real after = x[1] + (gvi_real)1e-3;
         if (x[0] < 0) x[0] = 0;
         if ((status = contact__land(c, from, a, *part*h, x, &at))) break;
-        if (at < 0) {
+        if (at < 0) {                                      // that of a is no closing; another's may be near
+            c->refused[a] = x[1] + (gvi_real)1e-3;
             if ((status = contact__again(c, from, *part*h))) break;
-            x[0] = after < 1 ? after : 1;
             continue;
         }
         const contact_gap g = contact__gap(c, a, c->st.t, c->q, c->v);
         *part *= at, *which = a, x[0] = 0;
+        memset(c->refused, 0, (size_t)c->count*sizeof *c->refused);
         *undecided = c->touches[a] > 0 && contact__abs(g.rate**part*h) <= 4*g.noise;
         if (!*undecided) continue;
         *part = 0;
@@ -926,7 +921,6 @@ static inline gvi_status contact__once(contact *c, const contact_state *from, gv
     if (!status) status = contact__opening(c, from, whole, &part, &bits);
     *made = part*whole;
     if (status) return status;
-    for (int a = 0; a < c->count && part > 0; ++a) c->wait[a] -= c->wait[a] > 0;
     if (bits) status = contact__resolve(c, -1, 1, bits);
     else if (closes >= 0) status = contact__resolve(c, closes, undecided, 0);
     c->st.next = next;

@@ -10,8 +10,8 @@
      energy    kinetic and potential energy and what impacts took differ from the start's by 1e-9, or they gave some
      refused   any status but CONTACT_E_PILE_UP with rest = 0, which bounces without end deserve
 
-   Fails if one of these is seen.  Scenes that once were refused come first.  contact_scenes [steps, 200000 [seed]]: scene i is
-   that of seed + i; contact_scenes 1 SEED plays one of them again                                          */
+   Fails if one of these is seen.  Scenes that once failed come first.  contact_scenes [steps, 200000 [seed]]: scene i is
+   number 1000000 seed + i; contact_scenes 1 NUMBER plays one of them again                                          */
 #include "hard.h"
 #include "tools/contact.h"
 
@@ -170,7 +170,8 @@ static void play(long steps, uint64_t number)
 int main(int argc, char **argv)
 {
     const long steps = argc > 1 ? atol(argv[1]) : 200000;
-    const uint64_t first = argc > 2 ? (uint64_t)atol(argv[2])*(steps > 1 ? 1000000 : 1) : 1000000, once[] = { 1000532, 1000552, 11000187, 11000566, 11001012, 11002331 };
+    const uint64_t once[] = { 1000532, 1000552, 11000187, 11000566, 11001012, 11002331, 14000400 },
+                   first = argc > 2 ? (uint64_t)atol(argv[2])*(steps > 1 ? 1000000 : 1) : 1000000;
     for (size_t i = 0; i < sizeof once/sizeof *once && steps > 1; ++i) play(400, once[i]);
     for (uint64_t i = 0; all.steps < steps; ++i) play(400, first + i);
     printf("%ld scenes, %ld steps, %llu events: inside %ld (deepest %.1Le), tension %ld (%.1Le), energy %ld (%.1Le), "
