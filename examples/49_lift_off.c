@@ -94,7 +94,7 @@ static unsigned long long turn(double speed, int steps, double h, double *t, dou
 
 static int draw(const char *path)
 {
-    enum { SAMPLES = 400 };
+    enum { SAMPLES = 401 };
     static double t[SAMPLES], valve[SAMPLES], lift[SAMPLES];
     turn(1.3, SAMPLES, 0.01, t, valve, lift);
     const svg_line lines[] = { { "valve", t, valve, SAMPLES }, { "cam", t, lift, SAMPLES } };

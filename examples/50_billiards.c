@@ -9,7 +9,7 @@
 
    prints
 
-     10000 impacts: energy within 1e-13, the deepest of them 0e+00
+     10000 impacts: energy within 1e-14, the deepest of them 0e+00
      5 impacts there, 5 back: within 1e-13
      slope: 23 bounces, then it slides; at t = 20 within 1e-12
 */

@@ -162,7 +162,7 @@ TEST(a_cam_lifts_its_follower_above_a_critical_speed)
         const real t = (lo + hi)/2, y = y0*cos(W*(t - at)) + u0/W*sin(W*(t - at)) - R(1.5);
         if (y > 1 - cos(omega*t)) lo = t; else hi = t;
     }
-    for (int s = 1; s <= 3; ++s) {
+    for (int s = 1; s <= 4; ++s) {
         real error[3];
         for (int k = 0; k < 3; ++k) {
             contact c = { .count = 1, .slots = 1, .gap = cam };
@@ -176,6 +176,15 @@ TEST(a_cam_lifts_its_follower_above_a_critical_speed)
 }
 
 /* ---- balls ---- */
+
+static real lost;                               /* momentum, in impacts of two balls */
+
+static void told_pairs(contact *c, contact_kind kind, int which)
+{
+    real sum[2] = { 0, 0 };
+    for (int i = 0; i < 8 && which >= 16 && kind == CONTACT_IMPACT; ++i) sum[i % 2] += c->v[i] - c->st.p[i];
+    lost = fmax(lost, fmax(fabs(sum[0]), fabs(sum[1])));
+}
 
 static const int pairs[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } };
 
@@ -199,7 +208,8 @@ TEST(billiard_balls_keep_their_energy_and_go_back)
     for (int i = 0; i < 22; ++i) e[i] = 1;
     contact c = { .count = 22, .slots = 8, .gap = billiard, .e = e };
     begin(&c, (gvi_desc){ .n = 8, .degree = 2 }, 0, q, v);
-    while (c.seen[CONTACT_IMPACT] < 1000) {
+    c.told = told_pairs, lost = 0;
+    while (c.seen[CONTACT_IMPACT] < 10000) {
         assert_ok(contact_step(&c, R(0.1)));
         for (int a = 0; a < 22; ++a) {
             billiard(a, 0, c.st.q, &phi, slope, &rate, NULL);
@@ -207,7 +217,8 @@ TEST(billiard_balls_keep_their_energy_and_go_back)
         }
     }
     for (int i = 0; i < 8; ++i) E += (c.st.p[i]*c.st.p[i] - v[i]*v[i])/2;
-    assert_close(E, 0, 1000*EPS);
+    assert_close(E, 0, 1000*EPS);                               // 100 in the root, of 10 each
+    assert_close(lost, 0, 8*EPS);
     assert_between(-64*EPS*6, least, 64*EPS*6);                 // the gap's terms: 2 sqrt(2) (1.7 + |h v|)
     assert_close(c.energy, 0, 1000*EPS);
     assert_int_equal(c.seen[CONTACT_CLOSED] + c.seen[CONTACT_OPENED] + c.seen[CONTACT_CAPTURED], 0);
@@ -269,6 +280,53 @@ TEST(balls_that_touch_are_hit_together_or_in_turn)
     }
 }
 
+GAP(box) { *phi = a % 2 ? 1 - q[a/2] : q[a/2], G[a/2] = a % 2 ? -1 : 1; }
+
+/* Two balls on lines of their own between walls at 0 and 1, 17 impacts: in one step or by the dial, forth and back */
+TEST(all_impacts_of_a_step_come_in_their_order)
+{
+    const real e[] = { 1, 1, 1, 1 }, q[] = { R(0.4), R(0.7) }, v[] = { 1, R(-0.7) }, T = R(10.3);
+    for (int run = 0; run < 4; ++run) {
+        const real way = run % 2 ? -1 : 1;
+        contact c = { .count = 4, .slots = 2, .gap = box, .e = e };
+        begin(&c, (gvi_desc){ .n = 2, .degree = 3, .resolution = run < 2 ? 0 : sqrt(EPS) }, 0, q, v);
+        if (run < 2) go(&c, way*T, 1);
+        while (run > 1 && way*c.st.t < T) assert_ok(contact_advance(&c, way*T));
+
+        real x[2] = { q[0], q[1] }, u[2] = { way*v[0], way*v[1] }, left[2], t = 0;
+        int k = 0;
+        for (; ; ++k) {                                               // by the next of the two alone
+            for (int i = 0; i < 2; ++i) left[i] = u[i] > 0 ? (1 - x[i])/u[i] : -x[i]/u[i];
+            const int i = left[1] < left[0];
+            if (t + left[i] > T) break;
+            assert_between(k + 1, events, LOG);
+            assert_int_equal(seen[k].which, 2*i + (u[i] > 0));
+            assert_close(seen[k].t, way*(t += left[i]), 100*EPS*T);
+            x[!i] += u[!i]*left[i], x[i] = u[i] > 0, u[i] = -u[i];
+        }
+        assert_int_equal(events, k);
+        assert_int_equal(c.seen[CONTACT_IMPACT], k);
+        for (int i = 0; i < 2; ++i) assert_close(c.st.q[i], x[i] + u[i]*(T - t), 100*EPS*T);
+    }
+}
+
+GVI_EACH(spring, 1, f) { x->f[0] -= x->q[0]; }
+GAP(near_the_turn) { *phi = q[0] + R(0.9), G[0] = 1; }
+
+/* A step of two periods, which ends as far from the wall as it starts, and as much at rest */
+TEST(a_long_step_does_not_pass_over_a_wall)
+{
+    const real e = 1, at = acos(R(-0.9));
+    for (int s = 24; s <= 32; s += 4) {
+        contact c = { .count = 1, .slots = 1, .gap = near_the_turn, .e = &e };
+        list[0] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = spring };
+        begin(&c, (gvi_desc){ .n = 1, .degree = s }, 1, (real[]){ 1 }, (real[]){ 0 });
+        go(&c, 4*acos(R(-1.0)), 1);
+        assert_int_equal(events, 2);
+        for (int i = 0; i < 2; ++i) assert_close(seen[i].t, (real)(2*i + 1)*at, KIND == 1 ? R(1e-4) : R(1e-9));
+    }
+}
+
 GAP(disc)
 {
     const real X = q[0] - R(5.3), Y = q[1] - R(0.05), r = sqrt(X*X + Y*Y);
@@ -316,10 +374,12 @@ GVI_EACH(angles_gradient, 2, v, f)
 GAP(wall_of_bobs) { *phi = wall - q[2], G[2] = -1; }
 GAP(wall_of_angles) { *phi = wall - sin(q[0]) - sin(q[1]), G[0] = -cos(q[0]), G[1] = -cos(q[1]); }
 
+typedef long double wide;                       /* the judge's, in each type */
+
 /* Accelerations in angles, and what the wall has to push for the gap to stay: y = a, b, a', b' */
-static real push(const real *y, int touches, real *dy)
+static wide push(const wide *y, int touches, wide *dy)
 {
-    const real c = cos(y[0] - y[1]), s = sin(y[0] - y[1]), det = 2 - c*c,
+    const wide c = cos(y[0] - y[1]), s = sin(y[0] - y[1]), det = 2 - c*c,
                F = 2*(aside*cos(y[0]) - sin(y[0])) - s*y[3]*y[3], H = aside*cos(y[1]) - sin(y[1]) + s*y[2]*y[2],
                g = -cos(y[0]), h = -cos(y[1]), curved = sin(y[0])*y[2]*y[2] + sin(y[1])*y[3]*y[3],
                A = (F - c*H)/det, B = (2*H - c*F)/det, W = (g*(g - c*h) + h*(2*h - c*g))/det,
@@ -329,9 +389,9 @@ static real push(const real *y, int touches, real *dy)
     return lambda;
 }
 
-static void runge_kutta(real *y, int touches, real h)
+static void runge_kutta(wide *y, int touches, wide h)
 {
-    real k[4][4], z[4];
+    wide k[4][4], z[4];
     for (int j = 0; j < 4; ++j) {
         for (int i = 0; i < 4; ++i) z[i] = y[i] + (j == 0 ? 0 : j == 3 ? h : h/2)*(j > 0 ? k[j - 1][i] : 0);
         push(z, touches, k[j]);
@@ -340,18 +400,18 @@ static void runge_kutta(real *y, int touches, real h)
 }
 
 /* By steps of T/steps, each event by bisection of the last step */
-static void judge(real *y, real T, int steps, int *closed, int *opened)
+static void judge(wide *y, wide T, int steps, int *closed, int *opened)
 {
     int touches = 0;
     *closed = *opened = 0;
-    for (real t = 0, h = T/(real)steps; t < T - h/1000; ) {
-        real was[4], dy[4], lo = 0, hi = fmin(h, T - t);
+    for (wide t = 0, h = T/(wide)steps; t < T - h/1000; ) {
+        wide was[4], dy[4], lo = 0, hi = fmin(h, T - t);
         memcpy(was, y, sizeof was);
         runge_kutta(y, touches, hi);
         int event = touches ? push(y, 1, dy) < 0 : sin(y[0]) + sin(y[1]) > wall;
         if (!event) { t += hi; continue; }
         for (int k = 0; k < 60; ++k) {
-            const real x = (lo + hi)/2;
+            const wide x = (lo + hi)/2;
             memcpy(y, was, sizeof was);
             runge_kutta(y, touches, x);
             event = touches ? push(y, 1, dy) < 0 : sin(y[0]) + sin(y[1]) > wall;
@@ -361,7 +421,7 @@ static void judge(real *y, real T, int steps, int *closed, int *opened)
         runge_kutta(y, touches, lo);
         t += lo;
         if ((touches = !touches)) {                           // v+ = v- - M^-1 G' (G v)/(G M^-1 G')
-            const real c = cos(y[0] - y[1]), det = 2 - c*c, g = -cos(y[0]), e = -cos(y[1]), R0 = (g - c*e)/det,
+            const wide c = cos(y[0] - y[1]), det = 2 - c*c, g = -cos(y[0]), e = -cos(y[1]), R0 = (g - c*e)/det,
                        R1 = (2*e - c*g)/det, z = (g*y[2] + e*y[3])/(g*R0 + e*R1);
             y[2] -= R0*z, y[3] -= R1*z;
             ++*closed;
@@ -372,10 +432,14 @@ static void judge(real *y, real T, int steps, int *closed, int *opened)
 TEST(a_double_pendulum_meets_a_wall_and_leaves_it)
 {
     const real a = atan2(R(0.6), R(-0.8)), b = atan2(R(-0.6), R(-0.8)), T = 9;
-    real y[4] = { a, b, 0, 0 };
+    wide y[4] = { atan2l(0.6L, -0.8L), atan2l(-0.6L, -0.8L), 0, 0 };
     int closed, opened;
-    judge(y, T, KIND == 1 ? 4000 : 40000, &closed, &opened);
-    const real X = sin(y[0]) + sin(y[1]), Y = -cos(y[0]) - cos(y[1]);
+    judge(y, T, 20000, &closed, &opened);
+    const wide near = sin(y[0]) + sin(y[1]);
+    y[0] = atan2l(0.6L, -0.8L), y[1] = atan2l(-0.6L, -0.8L), y[2] = y[3] = 0;
+    judge(y, T, 40000, &closed, &opened);
+    const wide X = sin(y[0]) + sin(y[1]), Y = -cos(y[0]) - cos(y[1]);
+    const real own = (real)(4*fabs(X - near)/15);                     // of order 4, with some room
     assert_between(2, closed, 4);
     for (int form = 0; form < 2; ++form)
         for (int s = 1; s <= 5; ++s) {
@@ -390,13 +454,13 @@ TEST(a_double_pendulum_meets_a_wall_and_leaves_it)
                 begin(&c, desc, 1 + form, form ? (real[]){ R(0.6), R(0.8), 0, R(1.6) } : (real[]){ a, b }, (real[4]){ 0 });
                 if (s < 5) go(&c, T, (s == 1 ? 1024 : 128) << k);
                 else while (c.st.t < T) assert_ok(contact_advance(&c, T));
-                error[k] = form ? hypot(c.st.q[2] - X, c.st.q[3] - Y)
-                                : hypot(sin(c.st.q[0]) + sin(c.st.q[1]) - X, cos(c.st.q[0]) + cos(c.st.q[1]) + Y);
+                error[k] = (real)(form ? hypot(c.st.q[2] - X, c.st.q[3] - Y)
+                                       : hypot(sin(c.st.q[0]) + sin(c.st.q[1]) - X, cos(c.st.q[0]) + cos(c.st.q[1]) + Y));
                 assert_int_equal(c.seen[CONTACT_CLOSED], closed);
                 assert_int_equal(c.seen[CONTACT_OPENED], opened);
             }
-            if (s < 4) assert_order(error + (s > 1), s > 1 ? 2 : 3, s, 1e4*EPS);
-            else assert_between(0, error[2], KIND == 1 ? R(1e-3) : R(2e-11));
+            if (s < 5) assert_order(error + (s > 1), s > 1 ? 2 : 3, s, 200*EPS);
+            else assert_between(0, error[2], 100*EPS + own);
         }
 }
 
@@ -532,6 +596,9 @@ TEST(a_table_of_four_legs_tips)
     }
 }
 
+static real place;
+GAP(corner) { *phi = a ? q[1] : q[0] - place, G[a] = 1; }
+
 GVI_EACH(chain_weight, 6, f) { x->f[1] -= 1, x->f[3] -= 1, x->f[5] -= 1, x->f[0] += *(const real *)user; }
 GVI_EACH(chain_rods, 6, rows(3))
 {
@@ -560,6 +627,54 @@ TEST(links_that_hang_along_a_wall_press_only_where_they_are_pulled)
             assert_close(contact_force(&c, a), run == 0 && a == 0 ? R(0.1) : 0, 400*EPS);
         }
         if (run == 2) assert_true(c.st.q[0] > R(0.005));
+    }
+}
+
+/* A ball that lies in a corner and nears its wall, or leaves it, by rounding of its place in a step: it stays, or goes */
+TEST(a_ball_that_lies_in_a_corner_stays_there)
+{
+    for (int run = 0; run < 64; ++run) {
+        const real way = run % 2 ? 1 : -1, speed = 32*way*EPS*pow(R(10.0), -(real)(run % 16)/4);
+        contact c = { .count = 2, .slots = 2, .gap = corner, .rest = run % 4 < 2 ? R(1e-3) : 0 };
+        list[0] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = weight };
+        place = run & 32 ? R(1.0) : 0;
+        begin(&c, (gvi_desc){ .n = 2, .degree = 4 }, 1, (real[]){ place, 0 }, (real[]){ speed, 0 });
+        go(&c, 40, 400);
+        assert_between(1, events, 10);
+        assert_between(-72*EPS*place, c.st.q[0] - place, 40*fabs(speed) + 8*EPS);
+        assert_close(c.st.q[1], 0, 8*EPS);
+        assert_close(contact_force(&c, 1), 1, 400*EPS);
+    }
+}
+
+GVI_EACH(one_rod, 2, rows(1))
+{
+    x->g[0] = (x->q[0]*x->q[0] + x->q[1]*x->q[1] - 1)/2;
+    x->jacobian[0] = x->q[0], x->jacobian[1] = x->q[1];
+}
+GAP(stop)                                       /* a wall at the angle 2w - 0.7 from the lowest point */
+{
+    const real w = place;
+    *phi = cos(w)*q[0] + sin(w)*q[1] - sin(w - R(0.7)), G[0] = cos(w), G[1] = sin(w);
+}
+
+/* A pendulum meets walls of many slopes, e = 0: all its speed goes, and it leans there */
+TEST(a_pendulum_stops_dead)
+{
+    for (int run = 0; run < 40; ++run) {
+        place = R(0.36) + R(0.027)*(real)run;
+        const real from = R(2.5), at = 2*place - R(0.7);
+        contact c = { .count = 1, .slots = 1, .gap = stop };
+        list[0] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = weight };
+        list[1] = (gvi_effect){ .kind = GVI_CONSTRAINT, .points = one_rod, .rows = 1 };
+        begin(&c, (gvi_desc){ .n = 2, .degree = 5 }, 2, (real[]){ sin(from), -cos(from) }, (real[]){ 0, 0 });
+        go(&c, 8, 80);
+        assert_int_equal(events, 2);
+        assert_int_equal(seen[0].kind, CONTACT_IMPACT);
+        assert_int_equal(seen[1].kind, CONTACT_CLOSED);
+        assert_close(c.st.q[0], sin(at), 64*EPS);
+        assert_close(c.st.q[1], -cos(at), 64*EPS);
+        assert_close(contact_force(&c, 0), sin(at)/cos(place - R(0.7)), 400*EPS);
     }
 }
 
@@ -663,38 +778,81 @@ GAP(under) { *phi = q[2*a + 1], G[2*a + 1] = 1; }
 GAP(wrong_slope) { *phi = q[1], G[1] = 2; }
 GAP(floors) { *phi = q[1], G[0] = 0, G[1] = 1 + (real)a; *phi *= 1 + (real)a; }
 
+GAP(crowd) { *phi = q[1], G[1] = 1; (void)a; }
+
+/* No trace: the same state, and the next steps are those of a twin of whom nothing was wanted; to the rounding that a step
+   carries over, unless it is a start that is refused */
+#define REFUSED(c, twin, room, status, call) do { \
+    SAME_STATE(&(c).st) assert_int_equal(call, status); \
+    for (int k_ = 0; k_ < 5; ++k_) { \
+        assert_ok(contact_step(&(c), R(0.01))); \
+        assert_ok(contact_step(&(twin), R(0.01))); \
+        for (int i_ = 0; i_ < (c).st.n; ++i_) { \
+            assert_close((c).st.q[i_], (twin).st.q[i_], room); \
+            assert_close((c).st.p[i_], (twin).st.p[i_], room); \
+        } \
+        for (int a_ = 0; a_ < (c).count; ++a_) \
+            assert_close(contact_force(&(c), a_), contact_force(&(twin), a_), 50*(room)); \
+    } } while (0)
+
+/* The same motion twice: c in list[], twin in a list and memory of its own */
+static void twins(contact *c, contact *twin, gvi_desc desc, const real *q, const real *v)
+{
+    static gvi_effect other[2 + SLOTS];
+    static long double store[1 << 16];
+    *twin = *c;
+    begin(c, desc, 1, q, v);
+    other[0] = list[0];
+    contact_rows(twin, other + 1);
+    desc.effects = other, desc.effect_count = 1 + twin->slots;
+    assert_ok(contact_init(twin, &desc, (real *)store, sizeof store));
+    assert_ok(contact_start(twin, 0, q, v));
+}
+
 TEST(what_cannot_be_is_refused_and_leaves_no_trace)
 {
     real e = R(0.99);
-    contact c = { .count = 2, .slots = 2, .gap = sphere_and_floor };
+    contact twin, c = { .count = 2, .slots = 2, .gap = sphere_and_floor };
     const gvi_desc desc = { .n = 2, .degree = 4 };
     list[0] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = weight };
 
-    set_up(&c, desc, 1);
+    twins(&c, &twin, desc, (real[]){ sin(R(0.3)), cos(R(0.3)) }, (real[]){ 0, 0 });         // presses on the sphere
+    go(&c, R(0.2), 2);
+    go(&twin, R(0.2), 2);
+    REFUSED(c, twin, 0, CONTACT_E_PENETRATES, contact_start(&c, 0, (real[]){ 0, R(0.999) }, (real[]){ 0, 0 }));
     assert_int_equal(contact_start(&c, 0, (real[]){ 0, R(0.999) }, (real[]){ 0, 0 }), CONTACT_E_PENETRATES);
     assert_int_equal(c.fault, 0);
+    REFUSED(c, twin, 0, GVI_E_ARGUMENT, contact_start(&c, 0, (real[]){ 0, 2 }, (real[]){ MAX*2, 0 }));
     c.gap = wrong_slope;
-    assert_int_equal(contact_start(&c, 0, (real[]){ 0, 1 }, (real[]){ 0, 0 }), GVI_E_ARGUMENT);
+    SAME_STATE(&c.st) assert_int_equal(contact_start(&c, 0, (real[]){ 0, 1 }, (real[]){ 0, 0 }), GVI_E_ARGUMENT);
     assert_int_equal(c.fault, 0);
     assert_non_null(strstr(contact_why(&c, GVI_E_ARGUMENT), "jacobian"));
+    c.gap = sphere_and_floor;
+    REFUSED(c, twin, 0, CONTACT_E_PENETRATES, contact_start(&c, 0, (real[]){ 0, -2 }, (real[]){ 0, 0 }));
+    assert_int_equal(c.fault, -1);                                              // of the steps since
 
     c = (contact){ .count = 2, .slots = 2, .gap = closing_walls };             // they meet at t = 2
-    begin(&c, desc, 1, (real[]){ 0, 0 }, (real[]){ R(-0.3), 0 });
+    twins(&c, &twin, desc, (real[]){ 0, 0 }, (real[]){ R(-0.3), 0 });
     go(&c, R(1.9), 19);
+    go(&twin, R(1.9), 19);
     SAME_STATE(&c.st) assert_int_equal(contact_step(&c, R(0.2)), CONTACT_E_JAMMED);
     assert_between(0, c.fault, 1);
-    go(&c, R(1.95), 1);
+    REFUSED(c, twin, 8*EPS, CONTACT_E_JAMMED, contact_step(&c, R(0.2)));
 
     c = (contact){ .count = 1, .slots = 1, .gap = floors, .e = &e, .most = 20 };   // a bounce of ever less
-    begin(&c, desc, 1, (real[]){ 0, R(1e-3) }, (real[]){ 0, 0 });
-    SAME_STATE(&c.st) assert_int_equal(contact_step(&c, 10), CONTACT_E_PILE_UP);
-    go(&c, R(0.1), 10);
+    twins(&c, &twin, desc, (real[]){ 0, R(1e-3) }, (real[]){ 0, 0 });
+    REFUSED(c, twin, 8*EPS, CONTACT_E_PILE_UP, contact_step(&c, 10));
 
     c = (contact){ .count = 2, .slots = 1, .gap = under };                     // two fall on the floor, one slot
     list[0] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = pull_bobs };
-    begin(&c, (gvi_desc){ .n = 4, .degree = 2 }, 1, (real[]){ 0, 1, 0, 1 }, (real[4]){ 0 });
-    SAME_STATE(&c.st) assert_int_equal(contact_step(&c, 2), CONTACT_E_TOO_MANY);
-    go(&c, 1, 4);
+    twins(&c, &twin, (gvi_desc){ .n = 4, .degree = 2 }, (real[]){ 0, 1, 0, 1 }, (real[4]){ 0 });
+    REFUSED(c, twin, 8*EPS, CONTACT_E_TOO_MANY, contact_step(&c, 2));
+
+    c = (contact){ .count = CONTACT_TOUCH + 1, .slots = 1, .gap = crowd };     // more touch than there is room for
+    list[0] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = weight };
+    twins(&c, &twin, desc, (real[]){ 0, 1 }, (real[]){ 0, 0 });
+    REFUSED(c, twin, 8*EPS, CONTACT_E_TOO_MANY, contact_step(&c, 2));
+
     c = (contact){ .count = 3, .slots = 0, .gap = hanging_wall };
     contact_rows(&c, list);
     assert_int_equal(contact_init(&c, &desc, (real *)memory, sizeof memory), GVI_E_ARGUMENT);
