@@ -3481,28 +3481,37 @@ GVI__BODY void gvi__weigh(int R, const gvi_real *GVI__RESTRICT w,
     GVI__ALONG_BY(GVI__UNROLL, R, GVI__TO(L) = GVI__AT(w)*GVI__AT(source))
 }
 
-// point by point; from the last on, where its unit is made
+// sum_j table_j (h b_j source_ij) + plus_i, to z
+static void gvi__sum_row(const gvi_stepper *st, const gvi__stage *y, int i, gvi_real *z)
+{
+    const int R = st->in.R;
+    gvi__weigh(R, st->in.sized.hb, y->source + i*R, st->in.weighted);
+    for (int k = 0; k < R; ++k) z[k] = gvi__point_sum(st->r, R, y->table + k, st->in.weighted);
+    for (int k = 0; GVI__CHAPTERS != 0 && y->plus && k < R; ++k) z[k] += y->plus[i*R + k];
+}
+
+// point by point; where M is full, all sums first, then M^-1 of them
 static gvi_real gvi__rows_by_points(const gvi_stepper *st, const gvi__stage *y, int rescale)
 {
-    const int r = st->r, R = st->in.R, last = r - 1, middle = (r - 1)/2;
-    gvi_real square[8] = { 0, 0, 0, 0, 0, 0, 0, 0 }, *L = st->in.weighted;
-    for (int i = 0; i < st->n; ++i) {
-        gvi_real *GVI__RESTRICT row = y->values + i*R, scale = y->scale[i], two = 0;
-        gvi__weigh(R, st->in.sized.hb, y->source + i*R, L);
+    const int n = st->n, R = st->in.R, last = st->r - 1, middle = last/2;
+    gvi_real *sums = st->in.mass.sums, square[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
+    for (int i = 0; sums && i < n; ++i) gvi__sum_row(st, y, i, sums + i*R);
+    if (sums) gvi__over_mass(st, sums, R, R);
+    for (int i = 0; i < n; ++i) {
+        const gvi_real base = y->base[i], inverse = y->inverse[i], factor = y->factor;
+        gvi_real *row = y->values + i*R, *z = sums ? sums + i*R : st->in.set_up;
+        const gvi_real *free = y->free + i*R;
+        if (!sums) gvi__sum_row(st, y, i, z);
+        GVI__ALONG(R, GVI__TO(z) = base + (GVI__AT(free) + GVI__AT(z)*inverse*factor))
+        if (rescale) y->scale[i] = gvi__scale_of(base, row[last], z[last]);
+        const gvi_real scale = y->scale[i], a = (z[last] - row[last])*scale,
+                       b = (z[middle] - row[middle])*scale;
+        y->change[i] = a*a + b*b;
         for (int k = R - 1; k >= 0; --k) {
-            gvi_real sum = gvi__point_sum(r, R, y->table + k, L);
-            if (GVI__CHAPTERS != 0 && y->plus) sum += y->plus[i*R + k];
-            sum *= y->inverse[i];
-            const gvi_real z = y->base[i] + (y->free[i*R + k] + sum*y->factor);
-            if (rescale && k == last) scale = gvi__scale_of(y->base[i], row[k], z);
-            const gvi_real moved = (z - row[k])*scale;
+            const gvi_real moved = (z[k] - row[k])*scale;
             square[k & 7] += moved*moved;
-            if (k == last) two += moved*moved;
-            if (k == middle) two += moved*moved;
-            row[k] = z;
+            row[k] = z[k];
         }
-        y->scale[i] = scale;
-        y->change[i] = two;
     }
 
     return gvi__sum_squares(square);
@@ -3571,37 +3580,6 @@ GVI__BODY gvi_real gvi__rows_by_lanes(const gvi_stepper *st, const gvi__stage *G
     return gvi__sum_squares(total);
 }
 
-// where M is full: all sums first, then M^-1 of them
-static gvi_real gvi__rows_of_full_mass(const gvi_stepper *st, const gvi__stage *y, int rescale)
-{
-    const int n = st->n, r = st->r, R = st->in.R, last = r - 1, middle = (r - 1)/2;
-    gvi_real *sums = st->in.mass.sums, *L = st->in.weighted, square[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
-    for (int i = 0; i < n; ++i) {
-        gvi__weigh(R, st->in.sized.hb, y->source + i*R, L);
-        for (int k = 0; k < R; ++k) sums[i*R + k] = gvi__point_sum(r, R, y->table + k, L);
-        for (int k = 0; y->plus && k < R; ++k) sums[i*R + k] += y->plus[i*R + k];
-    }
-
-    gvi__over_mass(st, sums, R, R);
-    for (int i = 0; i < n; ++i) {
-        const gvi_real base = y->base[i], factor = y->factor;
-        gvi_real *row = y->values + i*R, *z = sums + i*R;
-        const gvi_real *free = y->free + i*R;
-        GVI__ALONG(R, GVI__TO(z) = base + (GVI__AT(free) + GVI__AT(z)*factor))
-        if (rescale) y->scale[i] = gvi__scale_of(base, row[last], z[last]);
-        const gvi_real scale = y->scale[i], a = (z[last] - row[last])*scale,
-                       b = (z[middle] - row[middle])*scale;
-        y->change[i] = a*a + b*b;
-        for (int k = 0; k < R; ++k) {
-            const gvi_real moved = (z[k] - row[k])*scale;
-            square[k & 7] += moved*moved;
-            row[k] = z[k];
-        }
-    }
-
-    return gvi__sum_squares(square);
-}
-
 // the sizes that deserve a copy of their own
 #define GVI__KERNEL(name, n, r, R)                                                              \
     static gvi_real name(const gvi_stepper *st, const gvi__stage *GVI__RESTRICT y, int rescale) \
@@ -3626,7 +3604,7 @@ GVI__KERNEL(gvi__rows_many,  st->n, st->r, st->in.R)
 
 static gvi__kernel *gvi__kernel_for(const gvi_stepper *st)
 {
-    if (st->in.mass.sums) return gvi__rows_of_full_mass;
+    if (st->in.mass.sums) return gvi__rows_by_points;
 #if GVI__LANES > 1
     if (st->r == 4) return gvi__rows_4;
     if (st->r == 8) return st->n == 2 ? gvi__rows_2_8 : gvi__rows_8;
@@ -3814,13 +3792,6 @@ static gvi_real gvi__amplitude_of(const gvi_stepper *st, gvi_real h, const gvi__
     return unit;
 }
 
-static gvi_real gvi__inertia(const gvi_stepper *st, int i)
-{
-    const int dense = st->in.desc.mass.kind == GVI_MASS_DENSE;
-    if (gvi__parts(&st->in)) return gvi__place_inertia(st, i);
-    return GVI_ABS(st->in.mass.matrix[dense ? i*(st->n + 1) : i]);
-}
-
 /* THE FLOOR: what rounding alone changes of a row from one iteration to the next, and how far the
    changes exceed it, the largest of all rows.  A row's own floor is 4 eps of its largest value.
    With `all` it is 32 eps of the largest amplitude: where the iteration contracts, h^2 dF/dQ
@@ -3837,14 +3808,14 @@ GVI__CALLED gvi_real gvi__excess(const gvi_stepper *st, gvi_real h, const gvi__s
 
     for (const gvi__stage *y = stage; all && y < stage + st->in.stages; ++y)
         for (int i = 0; i < st->n && !y->quiet; ++i) {
-            const gvi_real unit = gvi__amplitude_of(st, h, y, gvi__inertia(st, i));
+            const gvi_real unit = gvi__amplitude_of(st, h, y, gvi__place_inertia(st, i));
             largest = gvi__larger(unit*gvi__size_of_row(st, y, i), largest);
         }
 
     for (const gvi__stage *y = stage; y < stage + st->in.stages; ++y)
         for (int i = 0; i < st->n && !y->quiet; ++i) {
             const int moves = all && (y->of == GVI__OF_Q || st->in.desc.iterations > 0);
-            const gvi_real m = gvi__inertia(st, i), unit = gvi__amplitude_of(st, h, y, m),
+            const gvi_real m = gvi__place_inertia(st, i), unit = gvi__amplitude_of(st, h, y, m),
                            size = all ? largest : unit*gvi__size_of_row(st, y, i),
                            added = parts ? gvi__place_floor(st, h, i, m, eps, moves) : 0;
             if (!(y->scale[i] > 0) || !(y->change[i] > 0)) continue;
@@ -4671,39 +4642,27 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
     return gvi__report_effect(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS);
 }
 
-// d2L/dv2 at one point and its LU, to lagrangian.hessian; symmetric, which its differences are not
+/* d2L/dv2 at one point and its LU, to lagrangian.hessian; symmetric, which its differences are not.
+   Where effects alone make the mass, it is known now, at rest as well.                        */
 GVI__OFFERED gvi_status gvi__factor_hessian(gvi_stepper *st, gvi_points *at, gvi_real *v)
 {
-    const int n = st->n;
+    const int n = st->n, none = st->in.desc.mass.kind == GVI_MASS_NONE;
     gvi_real *H = st->in.lagrangian.hessian;
+    int column;
     at->v = v;
     gvi_status status = gvi__evaluate(st, at, 0, 1);
     if (status == GVI_OK) status = gvi__velocity_hessian(st, at, v, NULL, H);
     if (status != GVI_OK) return status;
-    for (int i = 0; i < n; ++i)
+    for (int i = 0; i < n; ++i) {
         for (int j = 0; j < i; ++j) H[i*n + j] = H[j*n + i] = H[i*n + j]/2 + H[j*n + i]/2;
-    if (gvi_lu_factor(n, H, H + n*n) == GVI_OK) return GVI_OK;
-    return gvi__report_effect(st, GVI_E_SINGULAR, GVI_FAULT_MASS);
-}
-
-#ifndef GVI_NO_NEWTON
-// is d2L/dv2 regular?  Where effects alone make the mass, it is known now, at rest as well
-static gvi_status gvi__check_hessian(gvi_stepper *st, gvi_points *at, gvi_real *v)
-{
-    const int n = st->n;
-    gvi_real *H = st->in.lagrangian.hessian;
-    int column;
-    gvi_status status = gvi__evaluate(st, at, 0, 1);
-    if (status == GVI_OK) status = gvi__velocity_hessian(st, at, v, NULL, H);
-    if (status != GVI_OK) return status;
-    for (int i = 0; i < n; ++i)                    // p/v does not tell the mass
-        if (st->in.desc.mass.kind == GVI_MASS_NONE && gvi__nonzero(H[i*n + i]))
+        if (none && gvi__nonzero(H[i*n + i]))
             st->in.watch.scale[i] = 1/GVI_SQRT(GVI_ABS(H[i*n + i]));
+    }
     status = gvi__lu_factor(n, H, H + n*n, &column);
-    if (status != GVI_E_SINGULAR) return GVI_OK;
-    return gvi__report(st, status, GVI_FAULT_MASS, column, GVI_FAULT_NONE);
+    if (status == GVI_E_SINGULAR)
+        return gvi__report(st, status, GVI_FAULT_MASS, column, GVI_FAULT_NONE);
+    return gvi__report_status(st, status);
 }
-#endif
 
 // z := (d2L/dv2)^-1 z
 GVI__OFFERED void gvi__over_hessian(const gvi_stepper *st, gvi_real *z)
@@ -4740,7 +4699,6 @@ static void gvi__lagrangian_predict(const gvi_stepper *st, int extrapolate)
 }
 
 #else
-#define gvi__check_hessian(st, at, v) GVI_OK
 #define gvi__factor_hessian(st, at, v) ((void)(at), (void)(v), GVI_OK)
 #define gvi__over_hessian(st, z) ((void)(z))
 #define gvi__rows_of_A(in) ((gvi_real *)0)
@@ -5935,8 +5893,7 @@ static gvi_status gvi__check_regular(gvi_stepper *st)
     gvi__gather(n, in->R, in->work.Q, q);
     gvi__gather(n, in->R, in->work.V, v);
     gvi_points y = gvi__one_point(st, in->t, q);
-    y.v = v;
-    return in->adds_p ? gvi__check_hessian(st, &y, v) : gvi__factor_mass(st, &y);
+    return in->adds_p ? gvi__factor_hessian(st, &y, v) : gvi__factor_mass(st, &y);
 }
 
 static gvi_status gvi__jacobian_fill(gvi_stepper *st, const gvi__matrix *J)
@@ -9214,8 +9171,7 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
 
     if (J->k0)
         for (int k = n; k < st->s*n; ++k) y[k] *= grow;
-    gvi__weights_for(st, h);
-    gvi__times(in->R, from->t, 0, h, in->table.c, in->t);
+    gvi__newton_points(st, from, h);
     for (int k = -bow; k < 2; ++k) {
         gvi_status status = gvi__newton_values(st, from);
         if (status != GVI_OK) return status;
@@ -9716,82 +9672,77 @@ static gvi_status gvi__explain_failure(gvi_stepper *st, const gvi__origin *from,
     return status;
 }
 
+/* What is wrong with the loop of effect e over points, or NULL.  `at` is one state at all points:
+   each row's entries have to be what one point alone gives, to 1/1024 of the largest.  From the
+   largest number an effect shows whether it adds.                                             */
+GVI__COLD const char *gvi__slip(gvi_stepper *st, int e, gvi_points *at, gvi_points *one)
+{
+    const int n = st->n, R = at->stride, varies = st->in.desc.mass.kind == GVI_MASS_POSITION,
+              all = (1 + (st->in.desc.effects[e].kind == GVI_LAGRANGIAN))*n*R;
+    gvi_real *rows = at->f, before = 0, sum = 0, largest = 0;
+    int known = 1, unlike = 0, set = 0;
+
+    // effects may use what M(q) has computed: it comes first, as in a step
+    if (varies) (void)gvi__evaluate_mass(st, one, NULL, NULL);
+    for (int twice = 0; twice < 2 && known; ++twice) {            // noise is not to be judged
+        gvi__zero(2*(size_t)n, one->f);
+        known = gvi__effect(st, one, e, NULL) == GVI_OK;
+        before = sum;
+        sum = gvi__norm1(2*n, one->f);
+    }
+
+    gvi__zero((size_t)all, rows);
+    if (varies) (void)gvi__evaluate_mass(st, at, NULL, NULL);
+    if (gvi__effect(st, at, e, NULL) != GVI_OK) return NULL;
+    for (int i = 0; i < all; ++i)
+        if (i % R < at->count)
+            largest = gvi__larger(GVI_ABS(rows[i]), gvi__larger(GVI_ABS(one->f[i/R]), largest));
+    for (int i = 0; i < all; ++i)
+        unlike |= i % R < at->count && GVI_ABS(rows[i] - one->f[i/R]) > largest/GVI__SURE;
+    if (unlike && known && !gvi__nonzero(sum - before))
+        return "effect: fills not all points: coordinate i of point k < x->count is at "
+               "[i*x->stride + k]";
+
+    for (int i = 0; i < all; ++i) rows[i] = GVI__MAX;
+    if (gvi__effect(st, at, e, NULL) != GVI_OK || largest > GVI__MAX/4) return NULL;
+    for (int i = 0; i < all; ++i) set |= i % R < at->count && GVI_ABS(rows[i]) < GVI__MAX/2;
+    return set ? "effect: sets f or dldv with =, where it has to add with +=" : NULL;
+}
+
 /* At a first start, finds callbacks whose loop over points is missing or wrong, or that set f and
-   dldv with = instead of adding to them.  All points are one state, a little past q, where a force
-   0 at the start is not: each row's entries have to be what one point alone gives, to 1/1024 of
-   the largest.  From the largest number an effect shows whether it adds.                      */
+   dldv with = instead of adding to them: a little past q, where a force 0 at the start is not.  And
+   what is wrong at the very start, which no step mends.                                       */
 GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
 {
     struct gvi__private *in = &st->in;
     const gvi_counters counters = st->counters;          // a probe is no step's work
     gvi_points at = gvi__all_points_at(st, t, q, v);
-    const int n = st->n, R = at.stride, count = at.count;
-    gvi_real *values = at.f, *past = in->answer + 2*n;
+    const int n = st->n, R = at.stride;
+    gvi_real *past = in->answer + 2*n;
 
     for (int i = 0; i < n; ++i) past[i] = q[i] + GVI_SQRT(GVI__EPS)*v[i];
     for (int i = 0; i < n*R; ++i)
-        if (i % R < count) in->work.Q[i] = past[i/R];
+        if (i % R < at.count) in->work.Q[i] = past[i/R];
     gvi_points one = gvi__one_point(st, &t, past);
     one.v = v;
-    const char *slip = NULL;
-    for (int e = 0; e < in->desc.effect_count; ++e) {
-        int all = n*R, unlike = 0, huge = 0, set = 0;
-        gvi_real largest = 0;
+    gvi_status status = GVI_OK;
+    for (int e = 0; e < in->desc.effect_count && status == GVI_OK; ++e) {
         if ((in->off | in->separate) >> e & 1u) continue;
-        if (in->desc.effects[e].kind == GVI_LAGRANGIAN) all = 2*n*R;
-        gvi__zero((size_t)all, values);
-        // effects may use what M(q) has computed: it comes first, as in a step
-        const int varies = in->desc.mass.kind == GVI_MASS_POSITION;
-        if (varies) (void)gvi__evaluate_mass(st, &one, NULL, NULL);
-        gvi_real before = 0, sum = 0;
-        int known = 1;
-
-        // what is wrong at the very start no step mends
         one.q = q;
+        if (in->desc.mass.kind == GVI_MASS_POSITION) (void)gvi__evaluate_mass(st, &one, NULL, NULL);
         gvi__zero(2*(size_t)n, one.f);
-        gvi_status status = gvi__effect(st, &one, e, NULL);
+        status = gvi__effect(st, &one, e, NULL);
         if (status == GVI_OK) status = gvi__check_rows(st, &one, one.f, e);
-        if (status == GVI_OK && all > n*R) status = gvi__check_rows(st, &one, one.dldv, e);
-        if (status != GVI_OK) {
-            st->counters = counters;
-            st->fault.point = GVI_FAULT_NONE;
-            return st->status = status;
-        }
-
+        if (status == GVI_OK) status = gvi__check_rows(st, &one, one.dldv, e);
         one.q = past;
-        for (int twice = 0; twice < 2 && known; ++twice) {        // noise is not to be judged
-            gvi__zero(2*(size_t)n, one.f);
-            known = gvi__effect(st, &one, e, NULL) == GVI_OK;
-            before = sum;
-            sum = gvi__norm1(2*n, one.f);
-        }
-        if (gvi__nonzero(sum - before)) known = 0;
-
-        if (varies) (void)gvi__evaluate_mass(st, &at, NULL, NULL);
-        if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
-        for (int i = 0; i < all; ++i)
-            if (i % R < count) {
-                largest = gvi__larger(GVI_ABS(values[i]), largest);
-                largest = gvi__larger(GVI_ABS(one.f[i/R]), largest);
-            }
-        huge = largest > GVI__MAX/4;
-        for (int i = 0; i < all; ++i)
-            unlike |= i % R < count && GVI_ABS(values[i] - one.f[i/R]) > largest/GVI__SURE;
-        if (unlike && known)
-            slip = "effect: fills not all points: coordinate i of point k < x->count is at "
-                   "[i*x->stride + k]";
-
-        for (int i = 0; i < all; ++i) values[i] = GVI__MAX;
-        if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
-        for (int i = 0; i < all; ++i) set |= i % R < count && GVI_ABS(values[i]) < GVI__MAX/2;
-        if (set && !huge) slip = "effect: sets f or dldv with =, where it has to add with +=";
-        if (!slip) continue;
-        st->counters = counters;
-        return st->status = gvi__refuse(&st->fault, e, GVI_FAULT_NONE, slip);
+        const char *slip = status == GVI_OK ? gvi__slip(st, e, &at, &one) : NULL;
+        if (slip) status = gvi__refuse(&st->fault, e, GVI_FAULT_NONE, slip);
     }
 
     st->counters = counters;
-    return gvi__report_status(st, GVI_OK);
+    if (status == GVI_OK) return gvi__report_status(st, GVI_OK);
+    st->fault.point = GVI_FAULT_NONE;
+    return st->status = status;
 }
 #endif /* GVI_NO_EXPLAIN */
 
