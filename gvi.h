@@ -1731,8 +1731,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 
 // Newton's method: contraction
 #define GVI__CONTRACTS ((gvi_real)0.25)    // keeps its matrix; a curve is near
-#define GVI__LINEAR ((gvi_real)0.015625)   // the equations are all but linear
-#define GVI__CLOSE ((gvi_real)0.03125)     // of a curve, from its prediction: on the same branch
+#define GVI__CLOSE ((gvi_real)0.03125)     // to a linear prediction: the same branch; linear
 #define GVI__SHORT 64                      // h over this: free motion leads to the motion
 #define GVI__FADES (1 << GVI__DIG/6)       // a third of the digits: where a step failed, a row ends
 #define GVI__LOST 4                        // of a pivot's entry what is left: rank may be changing
@@ -1740,13 +1739,12 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 
 // the dial, in rungs, four an octave
 #define GVI__BAND 2                        // room at which h stays, and that growth leaves
-#define GVI__GROWS 4                       // the most that it grows
+#define GVI__GROWS 4                       // the most that it grows; it shrinks by up to twice that
 #define GVI__MANY (4 + GVI__DIG/4)         // iterations from which on a longer step does not pay
 #define GVI__WAIT 4                        // steps until a length that failed is tried again
 #define GVI__SHORTER 16                    // below what the resolution allows: Newton's method
 #define GVI__STEADY ((gvi_real)0.64)       // of a fall of modes, squared, that one pair alone shows
-#define GVI__FALL 8                        // the most that it shrinks, and after a failure
-#define GVI__AT_REST 4096                    // times slower than the fastest: judged with it
+#define GVI__AT_REST 4096                  // times slower than the fastest: judged with it
 #define GVI__PULLED 256                    // roundings of g, of forces that cancel or constrain
 #define GVI__DEEP (GVI__DIG/2)             // degree whose modes reach rounding
 
@@ -6157,9 +6155,6 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
             status = gvi__jacobian(st, J);
             if (status != GVI_OK) return status;
             p.have = 1;
-            // by the masses that are known now
-            if (k == 0 && in->desc.mass.kind == GVI_MASS_NONE)
-                p.norm = gvi__residual(st, from, J, &p);
             if (kept) in->newton.h = in->sized.h;
         }
         // a matrix of differences alone is right
@@ -6296,7 +6291,7 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
     gvi__matrix J = gvi__newton_matrix(st, query, how == GVI__HALVED);
 
     // few points see little of what is between
-    const gvi_real far = st->s > 2 ? GVI__CONTRACTS : GVI__LINEAR;
+    const gvi_real far = st->s > 2 ? GVI__CONTRACTS : GVI__CLOSE;
     int old = !query && !gvi__nonzero(in->newton.h - in->sized.h);
     gvi_real *v = in->answer + 2*st->n;
     gvi_status status = GVI_OK;
@@ -6920,7 +6915,9 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
                 change += z;
                 size += GVI_ABS(z);
             }
-            if (!(GVI_ABS(change) <= GVI__EPS*size)) in->con.linear = 0;
+            // g off the trapezoid of G: its rounding
+            const gvi_real off = in->con.g[a*C + k + 1] - (in->con.rho[a*R + k] - change/2);
+            if (!(GVI_ABS(change) <= gvi__larger(GVI__EPS*size, GVI_ABS(off)))) in->con.linear = 0;
         }
         if (linear) gvi__copy((size_t)s, in->con.rho + a*R, in->con.g + a*C + 1);
     }
@@ -8144,7 +8141,7 @@ static gvi_status gvi__find_nearest(gvi_stepper *st, gvi_real t, const gvi_real 
     gvi_real *drops = in->con.drops + in->con.m, change = GVI__MAX, before = 0, size = 0, share = 1;
     // what a d2L/dv2 by differences leaves of a change
     const gvi_real root = GVI_SQRT(GVI__EPS),
-                   least = in->adds_p ? 16*root : GVI_SQRT(GVI__EPS*root);
+                   least = in->adds_p ? GVI__SOLVED*root : GVI_SQRT(GVI__EPS*root);
 
     for (int k = 0; ; ++k) {
         gvi_status status = gvi__constraints_at(st, t, next, NULL, u, drops);
@@ -8154,7 +8151,7 @@ static gvi_status gvi__find_nearest(gvi_stepper *st, gvi_real t, const gvi_real 
                      *(GVI_ABS(in->con.g[a])
                        + GVI__EPS*gvi__terms(st, 1, t, path, in->con.G1, in->con.g + in->con.m, a));
 
-        if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK
+        if (k > 1 && !(change < before*GVI__LEAST) && status == GVI_OK
             && change <= least*size + noise) {
             if (gvi__fulfilled(st, t, next, NULL, u, 1) == GVI_OK) return GVI_OK;
             status = gvi__constraints_at(st, t, next, NULL, u, drops);
@@ -8761,7 +8758,7 @@ static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real 
     const gvi_real *row = (forces ? in->work.F : in->work.V) + i*in->R;
     const gvi_real h = GVI_ABS(in->sized.h), inertia = gvi__place_inertia(st, i),
                    p = GVI_ABS(in->state.p[i]), dp = GVI_ABS(in->step.p[i]),
-                   first = row[0], last = row[st->r - 1];
+                   first = row[0], last = row[st->r - 1], place = GVI__PLACE*GVI__EPS;
     gvi_real terms = GVI_ABS(first) + GVI_ABS(last), change = GVI_ABS(last - first),
              reach = GVI_ABS(in->state.q[i])/all;
     if (forces) {
@@ -8774,7 +8771,7 @@ static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real 
     }
 
     reach = (GVI_ABS(st->t) + reach)/h;
-    return high <= 4*GVI__EPS*terms || (low <= 4*high && high <= 4*GVI__EPS*change*reach);
+    return high <= place*terms || (low <= 4*high && high <= place*change*reach);
 }
 
 /* Mode K of coordinate i by the change of mode K - 1 since the step before; *was: its size there,
@@ -9010,7 +9007,7 @@ static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
     }
 
     if (left > GVI__BAND) up = gvi__smaller(left - GVI__BAND, GVI__GROWS);
-    if (left < 0) up = gvi__larger(left - 1, -GVI__FALL);
+    if (left < 0) up = gvi__larger(left - 1, -2*GVI__GROWS);
     if (!newton && st->iterations >= many) up = gvi__smaller(up, 0);
     if (!newton && st->iterations >= many*5/3) up = gvi__smaller(up, -1);
 
@@ -9029,10 +9026,10 @@ static gvi_real gvi__rungs_down(gvi_stepper *st, gvi_status status, gvi_real at,
     dial->again = GVI_ABS(at - dial->barrier) > 2 ? 0 : dial->again + (dial->again < 4);
     dial->wait = GVI__WAIT << dial->again;
     dial->barrier = at;
-    if (status == GVI_E_RESOLUTION) return gvi__larger(gvi__smaller(room, 0) - 1, -GVI__FALL);
+    if (status == GVI_E_RESOLUTION) return gvi__larger(gvi__smaller(room, 0) - 1, -2*GVI__GROWS);
 
     dial->reach = gvi__larger(dial->reach, at);   // the resolution may have allowed it
-    return dial->put_off ? -3 : -GVI__FALL;
+    return dial->put_off ? -3 : -2*GVI__GROWS;
 }
 
 // st.next after a step of length h, which an end may have made shorter than st.next was
@@ -9284,7 +9281,7 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
             if (*status == GVI_OK)
                 *status = gvi__bend(st, from, length, grow, J, k == pieces, linear, &bent);
         }
-        if (*status == GVI_OK && (!linear || bent < GVI__LINEAR)) return linear;
+        if (*status == GVI_OK && (!linear || bent < GVI__CLOSE)) return linear;
         if (linear) bowed = *status;
         if ((*status == GVI_E_NON_FINITE && GVI__LOOKS(st)) || left <= 0) break;
     }

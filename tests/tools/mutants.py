@@ -194,7 +194,7 @@ MUTANTS = [
     ("resolution", "end = start + in->step.p[i];", "end = in->step.p[i];"),
     ("resolution", "v = gvi__larger(size[i]/mass[i], v);", "v = gvi__larger(size[i], v);"),
     ("resolution", "        st->in.dial.put_off = 0;\n", ""),
-    ("resolution", "if (left < 0) up = gvi__larger(left - 1, -GVI__FALL);", ""),
+    ("resolution", "if (left < 0) up = gvi__larger(left - 1, -2*GVI__GROWS);", ""),
     ("resolution", "                st->t_low += st->t - t_end;\n", ""),
     ("resolution", "if (status == GVI_E_ARGUMENT || status == GVI_E_SINGULAR || tries == st->in.desc.tries",
                    "if (status == GVI_E_ARGUMENT || tries == st->in.desc.tries"),
