@@ -1718,9 +1718,10 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__POOR ((gvi_real)0.5)          // it gains less than a bit
 #define GVI__FAR ((gvi_real)0.25)          // of the motion, a change: the units are an overshoot's
 #define GVI__LEAST ((gvi_real)0.9)         // of the least change so far: a new one
-#define GVI__SLOW (GVI__DIG/2)             // to rounding by less than 2 bits: errors grew first
+#define GVI__DEEP (GVI__DIG/2)             // falls by 2 bits, of changes or modes, to rounding
 #define GVI__PATIENCE 3                    // changes that do not fall: diverges
 #define GVI__NEARER 6                      // halvings, where a domain or Newton's residual wants it
+#define GVI__NEVER 1000                    // of what ends by itself, but for broken callbacks
 #define GVI__BY_NEWTON 64                  // steps until the fixed point is tried again
 
 // predictor: how many last steps, ahead or back, an extrapolation is still better than nothing
@@ -1746,7 +1747,6 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__STEADY ((gvi_real)0.64)       // of a fall of modes, squared, that one pair alone shows
 #define GVI__AT_REST 4096                  // times slower than the fastest: judged with it
 #define GVI__PULLED 256                    // roundings of g, of forces that cancel or constrain
-#define GVI__DEEP (GVI__DIG/2)             // degree whose modes reach rounding
 
 /* ---------------------------------------------------------------- BLOCKS */
 
@@ -3881,7 +3881,7 @@ static int gvi__at_floor(gvi_stepper *st, gvi__progress *p, gvi_real h, const gv
     const int rolls = gvi__parts(&st->in) && gvi__place_rolls(st),
               long_since = p->idle > 4 - 3*rolls, poor = gvi__is_poor(p),
               still = p->idle > 1 - rolls && !(gvi__parts(&st->in) && gvi__place_moves(st)),
-              slow = st->in.fallback && p->used - p->idle >= GVI__SLOW,
+              slow = st->in.fallback && p->used - p->idle >= GVI__DEEP,
               end = slow ? GVI__DIVERGES : GVI__ONCE_MORE;
 
     if (still && gvi__excess(st, h, stage, 0) <= 1) return end;
@@ -4611,7 +4611,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
                 return gvi__report(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE);
         }
         const int beyond = status == GVI_E_CALLBACK || status == GVI_E_NON_FINITE;
-        if (k > 0 && beyond && halves < 400) {
+        if (k > 0 && beyond && halves < GVI__NEVER) {
             for (int i = 0; i < n; ++i) {
                 dv[i] /= 2;
                 v[i] -= dv[i];
@@ -5589,7 +5589,6 @@ typedef struct gvi__descent {
 #ifndef GVI_NO_CONSTRAINTS
 static size_t gvi__con_unknowns(const gvi_stepper *st);
 static int gvi__con_rows(const struct gvi__private *in);        // on or off
-static void gvi__con_start(gvi_stepper *st);
 static gvi_status gvi__con_values(gvi_stepper *st, const gvi__origin *from);
 static void gvi__con_force(const gvi_stepper *st, int i, int k, gvi_real *force, gvi_real *size);
 static gvi_real gvi__con_residual(gvi_stepper *st, gvi__descent *p, gvi_real *moved,
@@ -5599,11 +5598,10 @@ static gvi_status gvi__con_report(gvi_stepper *st, gvi_status status, int at);
 static void gvi__con_guess(const gvi_stepper *st, gvi_real *y);
 static gvi_status gvi__con_begin(gvi_stepper *st, const gvi__origin *from, gvi_real *v);
 static gvi_status gvi__con_end(gvi_stepper *st);
-static void gvi__con_impulse(gvi_stepper *st);
+static void gvi__constraint_momenta(gvi_stepper *st);
 #else
 #define gvi__con_unknowns(st) ((size_t)0)
 #define gvi__con_rows(in) 0
-#define gvi__con_start(st) ((void)0)
 #define gvi__con_values(st, from) GVI_OK
 #define gvi__con_force(st, i, k, force, size) ((void)0)
 #define gvi__con_residual(st, p, moved, before) 0
@@ -5612,7 +5610,7 @@ static void gvi__con_impulse(gvi_stepper *st);
 #define gvi__con_guess(st, y) ((void)0)
 #define gvi__con_begin(st, from, v) GVI_OK
 #define gvi__con_end(st) GVI_OK
-#define gvi__con_impulse(st) ((void)0)
+#define gvi__constraint_momenta(st) ((void)0)
 #endif
 
 static size_t gvi__unknowns(const gvi_stepper *st, int k0)
@@ -6143,7 +6141,6 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
     };
     p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);
     in->newton.bend = 0;
-    if (gvi__con_unknowns(st) > 0) gvi__con_start(st);
     for (int k = 0, made = 0, verdict = GVI__GO_ON; k <= in->desc.max_iterations; ++k) {
         gvi_status status = gvi__newton_values(st, from);
         // one more evaluation, then done
@@ -6218,8 +6215,10 @@ static gvi_real gvi__newton_distance(const gvi_stepper *st, const gvi_real *othe
     }
 
     if (!(most > 0)) return 0;
-    for (int i = 0; i < st->n; ++i)
-        if (!(moved[i]/(size[i] + most/64) <= distance)) distance = moved[i]/(size[i] + most/64);
+    for (int i = 0; i < st->n; ++i) {
+        const gvi_real far = moved[i]/(size[i] + most/64);
+        if (!(far <= distance)) distance = far;
+    }
     return distance;
 }
 
@@ -6324,7 +6323,7 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
     }
 
     gvi__sum_rows(st, in->work.F, from->p_low, in->step.p, in->step.p_low);
-    if (gvi__con_unknowns(st) > 0) gvi__con_impulse(st);
+    if (gvi__con_unknowns(st) > 0) gvi__constraint_momenta(st);
     return GVI_OK;
 }
 
@@ -6877,10 +6876,11 @@ static void gvi__force_sizes(const gvi_stepper *st, const gvi_real *z, int S, gv
                 sum[i*S + e] += GVI_ABS(st->in.con.G[(a*n + i)*C + e]*z[e]);
 }
 
-/* The constraints at D, padded with q0.  After a move along which G changed by less than EPS of it,
-   or one of EPS^(3/4) (not in float, where a step across a bifurcation would end on the wrong
-   branch), g is linearised from the last D: its rounding would change lambda for ever, and is not
-   that of D where g has terms that G q does not show.                                        */
+/* The constraints at D, padded with q0.  g is linearised from the last D after a move along which G
+   changed by less than EPS of it, or g by less than its rounding, which is what g is off the
+   trapezoid of G; or after a move of EPS^(3/4) (not in float, where a step across a bifurcation
+   would end on the wrong branch).  That rounding would change lambda for ever, and is not that of D
+   where g has terms that G q does not show.                                                   */
 static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__private *in = &st->in;
@@ -6915,7 +6915,6 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
                 change += z;
                 size += GVI_ABS(z);
             }
-            // g off the trapezoid of G: its rounding
             const gvi_real off = in->con.g[a*C + k + 1] - (in->con.rho[a*R + k] - change/2);
             if (!(GVI_ABS(change) <= gvi__larger(GVI__EPS*size, GVI_ABS(off)))) in->con.linear = 0;
         }
@@ -7032,7 +7031,8 @@ GVI__CALLED void gvi__constraints_moved(const gvi_stepper *st, gvi_real *moved)
         for (int k = 1; k <= st->s; ++k) {
             const gvi_real terms = gvi__terms(st, C, in->con.t[k], in->con.at + k, in->con.G + k,
                                               in->con.g + m*C + k, a);
-            if (!(GVI_ABS(in->con.rho[m*R + a*C + k - 1]) <= 8*GVI__EPS*terms)) return;
+            if (!(GVI_ABS(in->con.rho[m*R + a*C + k - 1]) <= 2*GVI__PLACE*GVI__EPS*terms))
+                return;
         }
     gvi__force_sizes(st, in->con.rho, C, moved);
 }
@@ -7066,9 +7066,9 @@ GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate
 GVI__CALLED int gvi__a_row_falls(const gvi_stepper *st)
 {
     const gvi_real *change = st->in.watch.change, *before = st->in.watch.before,
-                   place = GVI__PLACE*GVI__EPS;
+                   place = GVI__PLACE*GVI__EPS, fall = GVI__CONTRACTS*GVI__CONTRACTS;
     for (int row = 0; row < st->in.stages*st->n; ++row)
-        if (change[row] > place*place && change[row] < before[row]/16) return 1;
+        if (change[row] > place*place && change[row] < fall*before[row]) return 1;
     return 0;
 }
 
@@ -7194,7 +7194,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
             return gvi__report_status(st, GVI_OK);
 
         // far off already, it was on its way to infinity
-        if (!gvi__finite(size) && !GVI__LOOKS(st) && before*GVI__EPS < (gvi_real)0.125)
+        if (!gvi__finite(size) && !GVI__LOOKS(st) && before*GVI__EPS < GVI__FAR)
             return gvi__report_status(st, GVI_E_NON_FINITE);
         least = gvi__smaller(size, least);
         if (!gvi__finite(size) || k > 64 || size > 4*(least + 256))
@@ -7414,7 +7414,7 @@ static gvi_real gvi__project_momentum(gvi_stepper *st, const gvi_real *v, gvi_re
 GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start)
 {
     struct gvi__private *in = &st->in;
-    const int n = st->n, m = in->con.m, passes = in->adds_p ? 40 : 2;
+    const int n = st->n, m = in->con.m, passes = in->adds_p ? GVI__NEVER : 2;
     const gvi_real t = from->t + (from->t_low + in->dt), far = GVI__HELD*GVI__EPS;
     gvi_real *q = in->answer, *p = q + n, *v = p + n, *r = in->con.g, *drops = in->con.drops + m,
              energy = 0, size = 0, before = GVI__MAX;
@@ -7541,7 +7541,7 @@ GVI__COLD int gvi__wrong_derivative(gvi_stepper *st, gvi_real from_t, int i, gvi
                    *there = i < n ? G + m*n + i : g + m, least = GVI__SURE*GVI__EPS*GVI_ABS(x);
     int wrong = -1;
 
-    for (int k = 0, agree = 0, known = 0, suspect = -1; k < 40 && d > least && !agree; ++k) {
+    for (int k = 0, known = 0, agree = 0, suspect = -1; k < GVI__DIG && d > least && !agree; ++k) {
         int doubted = -1;
         *moved = x + d;
         gvi_status status = gvi__evaluate_constraints(st, 1, 1, &now, at, G + m*n);
@@ -8156,7 +8156,7 @@ static gvi_status gvi__find_nearest(gvi_stepper *st, gvi_real t, const gvi_real 
             if (gvi__fulfilled(st, t, next, NULL, u, 1) == GVI_OK) return GVI_OK;
             status = gvi__constraints_at(st, t, next, NULL, u, drops);
         }
-        if (k > 1000 && status == GVI_OK) status = GVI_E_CONVERGENCE;
+        if (k > GVI__NEVER && status == GVI_OK) status = GVI_E_CONVERGENCE;
         if (status != GVI_OK) return status;
 
         before = change;
@@ -8322,8 +8322,6 @@ static int gvi__con_rows(const struct gvi__private *in)
     return gvi__count_rows(in, in->con.bits);
 }
 
-static void gvi__con_start(gvi_stepper *st) { st->in.con.made = 0; }
-
 // g and G at the D that y makes, and the forces of its multipliers
 GVI__CALLED gvi_status gvi__con_values(gvi_stepper *st, const gvi__origin *from)
 {
@@ -8337,7 +8335,7 @@ GVI__CALLED gvi_status gvi__con_values(gvi_stepper *st, const gvi__origin *from)
             in->con.D[i*R + e] = from->q_low[i] + in->sized.h*D;
         }
     for (int k = 0; k < s*m; ++k) in->con.force[(n + k % m)*R + k/m] = in->newton.y[s*n + k];
-    in->con.linear = 0;
+    in->con.made = in->con.linear = 0;
     const gvi_status status = gvi__evaluate_at_D(st, from);
     gvi__constraint_forces(st);
     gvi__force_sizes(st, in->con.force + n*R, R, in->con.D);      // nearly dependent rows cancel
@@ -8512,8 +8510,6 @@ GVI__CALLED gvi_status gvi__con_end(gvi_stepper *st)
 
     return GVI_OK;
 }
-
-static void gvi__con_impulse(gvi_stepper *st) { gvi__constraint_momenta(st); }
 #endif
 
 #ifndef GVI_NO_RULES
@@ -9251,7 +9247,7 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
 
     if (v) {
         first = 4;
-        left = 1000;
+        left = GVI__NEVER;
     } else if (any) {                             // whoever wants the index judges for himself
         *status = gvi__from_chord(st, from, h, q1, J);
         return 0;

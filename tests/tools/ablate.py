@@ -9,7 +9,7 @@ CONDITIONS = [   # what it is, the tests near it, what stands in gvi.h and what 
     ('the floor: what constraints add, rounding of g', 'convergence constraints constraints_newton loops rolling body resolution',
      [('if (i == 0 && moves) gvi__constraints_moved(st, in->con.scratch);', 'if (i == 0) gvi__zero((size_t)(st->n*in->con.C), in->con.scratch);')]),
     ('the floor: not while a row falls', 'rolling body uncoupled constraints loops',
-     [('if (change[row] > place*place && change[row] < before[row]/16) return 1;', '(void)change, (void)before, (void)place, (void)row;')]),
+     [('if (change[row] > place*place && change[row] < fall*before[row]) return 1;', '(void)change, (void)before, (void)place, (void)fall, (void)row;')]),
     ('the floor: units anew after an overshoot', 'uncoupled regressions jumps convergence',
      [('p->rescale = D > GVI__FAR*GVI__FAR || gvi__is_poor(p);', 'p->rescale = 0;')]),
     ('the floor: does the amplitude fall?', 'uncoupled regressions jumps convergence',

@@ -35,7 +35,7 @@ MUTANTS = [
     ("queries effects", "if (effect->kind == GVI_POTENTIAL) at.v = NULL;\n    at.f", "at.f"),
     ("resolution queries", "*energy = pv/2 + V;", "*energy = pv/2 - V;"),
     ("no_trace", "st->counters.effect[e] -= (unsigned long long)at->count;", ""),
-    ("domains", "if (k > 0 && beyond && halves < 400) {", "if (k > 0 && status == GVI_E_NON_FINITE && halves < 400) {"),
+    ("domains", "if (k > 0 && beyond && halves < GVI__NEVER) {", "if (k > 0 && status == GVI_E_NON_FINITE && halves < GVI__NEVER) {"),
     # the step
     ("newton structure no_trace", "if (!gauss || i != j) T = gvi__T(st, i);", "T = gvi__T(st, i)*(1 + (i == j)*GVI__EPS*1024);"),
     ("uncoupled regressions jumps", "if (Di > 2*GVI__EPS*GVI__EPS && Di*Di > limit*was) return 0;", "(void)Di, (void)was;"),
@@ -121,10 +121,10 @@ MUTANTS = [
     ("constraints effects", "if (!(in->con.bits & (in->off ^ was))) return GVI_OK;\n    in->con.m = gvi__count_rows(in, gvi__constraints_on(st));", "if (!(in->con.bits & (in->off ^ was))) return GVI_OK;"),
     # what a start looks at
     ("mass", "gvi__zero((size_t)(x->n*x->n)*(size_t)x->stride, at.mass);", ""),
-    ("why", "if (varies) (void)gvi__evaluate_mass(st, &at, NULL, NULL);",
+    ("why", "if (varies) (void)gvi__evaluate_mass(st, at, NULL, NULL);",
               ";"),
-    ("why", "if (set && !huge) slip", "if (0) slip"),
-    ("why", "if (unlike && known)", "if (0)"),
+    ("why", "return set ? \"effect: sets", "return 0 ? \"effect: sets"),
+    ("why", "if (unlike && known && !gvi__nonzero(sum - before))", "(void)unlike, (void)known, (void)before;\n    if (0)"),
     ("why newton", "if (start == GVI_E_SINGULAR || start == GVI_E_NON_FINITE) return start;", ""),
     ("constraints why", "if (status == GVI_E_SINGULAR) status = GVI_E_CONVERGENCE;", ""),
     # quadrature, time, queries
@@ -147,7 +147,7 @@ MUTANTS = [
     ("convergence", "!(gvi__parts(&st->in) && gvi__place_moves(st)),",
               "1,"),
     ("constraints", "H[i*n + j] = H[j*n + i] = H[i*n + j]/2 + H[j*n + i]/2;", "{ }"),
-    ("constraints", "least = in->adds_p ? 16*root : GVI_SQRT(GVI__EPS*root);", "least = GVI_SQRT(GVI__EPS*root);"),
+    ("constraints", "least = in->adds_p ? GVI__SOLVED*root : GVI_SQRT(GVI__EPS*root);", "least = GVI_SQRT(GVI__EPS*root);"),
     ("constraints", "const gvi_real both = gvi__larger(size, last);", "const gvi_real both = size;"),
     ("constraints", "if (drops[a] > 0 && GVI_ABS(slip) > GVI__HELD*GVI__EPS*terms)", "if (0)"),
     ("why", "if (unlike) wrong = a;", ""),
