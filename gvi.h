@@ -8489,10 +8489,16 @@ static void gvi__held_guess(const gvi_stepper *st, gvi_real *y)
         y[k] = in->con.force[(st->n + k % m)*in->R + k/m];
 }
 
-// which rows depend on others at the start?
+// which rows depend on others at the start?  A matrix that left out others will not do
 static gvi_status gvi__held_begin(gvi_stepper *st, const gvi__origin *from, gvi_real *v)
 {
-    return gvi__constraints_at(st, from->t, from->q, NULL, v, st->in.con.drops);
+    struct gvi__private *in = &st->in;
+    gvi_real *drops = in->con.drops, *was = in->con.rho;
+    gvi__copy((size_t)in->con.m, drops, was);
+    const gvi_status status = gvi__constraints_at(st, from->t, from->q, NULL, v, drops);
+    for (int a = 0; a < in->con.m; ++a)
+        if ((drops[a] > 0) != (was[a] > 0)) in->newton.h = 0;
+    return status;
 }
 
 // what the pivot of a row has lost at a point, in units of what is left of it
