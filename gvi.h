@@ -9711,75 +9711,103 @@ static gvi_status gvi__explain_failure(gvi_stepper *st, const gvi__origin *from,
     return status;
 }
 
+/* Where a probe looks, q and v behind it: for point 0 a little past q, where a force that is 0 at
+   the start is not; for the others at 31/32 of q and half of v.                               */
+static void gvi__probe_state(int n, const gvi_real *q, const gvi_real *v, int other,
+                             gvi_real *state)
+{
+    for (int i = 0; i < n; ++i) {
+        const gvi_real ahead = GVI_SQRT(GVI__EPS)*v[i];
+        state[i] = other ? q[i] - q[i]/32 + ahead/2 : q[i] + ahead;
+        state[n + i] = other ? v[i]/2 : v[i];
+    }
+}
+
+// effect e at one point alone, with the M(q) that it may use, which comes first, as in a step
+static gvi_status gvi__probe_one(gvi_stepper *st, gvi_points *one, int e)
+{
+    if (st->in.desc.mass.kind == GVI_MASS_POSITION) (void)gvi__evaluate_mass(st, one, NULL, NULL);
+    gvi__zero(2*(size_t)st->n, one->f);
+    return gvi__effect(st, one, e, NULL);
+}
+
+/* Does effect e, at points `at`, give what it gives at each of them alone, to 1/1024 of the largest
+   number?  And does it add that?  If not, which slip is it?  It shows in the largest.         */
+static const char *gvi__probe_loop(gvi_stepper *st, gvi_points *at, gvi_points *one, int e,
+                                   const gvi_real *q, const gvi_real *v)
+{
+    const int n = st->n, R = at->stride,
+              all = st->in.desc.effects[e].kind == GVI_LAGRANGIAN ? 2*n*R : n*R;
+    gvi_real *rows = at->f, largest = 0, before = 0;
+    const char *slip = NULL;
+    int unlike = 0, set = 0;
+
+    if (st->in.desc.mass.kind == GVI_MASS_POSITION) (void)gvi__evaluate_mass(st, at, NULL, NULL);
+    gvi__zero((size_t)all, rows);
+    if (gvi__effect(st, at, e, NULL) != GVI_OK) return NULL;
+    for (int i = 0; i < all; ++i)
+        if (i % R < at->count) largest = gvi__larger(GVI_ABS(rows[i]), largest);
+    for (int k = 0, known = 1; k < 2 + (at->count > 1) && known; ++k) {
+        const int other = k > 1;
+        gvi__probe_state(n, q, v, other, st->in.point);
+        known = gvi__probe_one(st, one, e) == GVI_OK;
+        const gvi_real sum = gvi__norm1(2*n, one->f);
+        if (k == 1 && gvi__nonzero(sum - before)) known = 0;      // noise is not to be judged
+        before = sum;
+        for (int i = 0; i < all/R; ++i) largest = gvi__larger(GVI_ABS(one->f[i]), largest);
+        for (int i = 0; i < all && known && k > 0; ++i)
+            unlike |= i % R < at->count && (i % R > 0) == other
+                      && GVI_ABS(rows[i] - one->f[i/R]) > largest/GVI__SURE;
+    }
+
+    if (unlike)
+        slip = "effect: fills not all points: coordinate i of point k < x->count is at "
+               "[i*x->stride + k]";
+    for (int i = 0; i < all; ++i) rows[i] = GVI__MAX;
+    if (gvi__effect(st, at, e, NULL) != GVI_OK) return slip;
+    for (int i = 0; i < all; ++i) set |= i % R < at->count && GVI_ABS(rows[i]) < GVI__MAX/2;
+    if (set && !(largest > GVI__MAX/4))
+        slip = "effect: sets f or dldv with =, where it has to add with +=";
+    return slip;
+}
+
 /* At a first start, finds callbacks whose loop over points is missing or wrong, or that set f and
-   dldv with = instead of adding to them.  All points are one state, a little past q, where a force
-   0 at the start is not: each row's entries have to be what one point alone gives, to 1/1024 of
-   the largest.  From the largest number an effect shows whether it adds.                      */
+   dldv with = instead of adding to them.                                                      */
 GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
 {
     struct gvi__private *in = &st->in;
     const gvi_counters counters = st->counters;          // a probe is no step's work
-    gvi_points at = gvi__all_points_at(st, t, q, v);
-    const int n = st->n, R = at.stride, count = at.count;
-    gvi_real *rows = at.f, *past = in->answer + 2*n;
+    gvi_points at = gvi__all_points_at(st, t, q, v), one = gvi__one_point(st, &t, in->point);
+    const int n = st->n, R = at.stride;
 
-    for (int i = 0; i < n; ++i) past[i] = q[i] + GVI_SQRT(GVI__EPS)*v[i];
-    for (int i = 0; i < n*R; ++i)
-        if (i % R < count) in->work.Q[i] = past[i/R];
-    gvi_points one = gvi__one_point(st, &t, past);
-    one.v = v;
-    const char *slip = NULL;
+    for (int other = 0; other < 2; ++other) {
+        gvi__probe_state(n, q, v, other, in->point);
+        for (int i = 0; i < n*R; ++i) {
+            if (i % R >= at.count || (i % R > 0) != other) continue;
+            in->work.Q[i] = in->point[i/R];
+            if (in->work.V) in->work.V[i] = in->point[n + i/R];
+        }
+    }
+
     for (int e = 0; e < in->desc.effect_count; ++e) {
-        int all = n*R, unlike = 0, huge = 0, set = 0;
-        gvi_real largest = 0;
+        const int adds_p = in->desc.effects[e].kind == GVI_LAGRANGIAN;
         if ((in->off | in->apart) >> e & 1u) continue;
-        if (in->desc.effects[e].kind == GVI_LAGRANGIAN) all = 2*n*R;
-        gvi__zero((size_t)all, rows);
-        // effects may use what M(q) has computed: it comes first, as in a step
-        const int varies = in->desc.mass.kind == GVI_MASS_POSITION;
-        if (varies) (void)gvi__evaluate_mass(st, &one, NULL, NULL);
-        gvi_real before = 0, sum = 0;
-        int known = 1;
 
         // what is wrong at the very start no step mends
         one.q = q;
-        gvi__zero(2*(size_t)n, one.f);
-        gvi_status status = gvi__effect(st, &one, e, NULL);
+        one.v = v;
+        gvi_status status = gvi__probe_one(st, &one, e);
         if (status == GVI_OK) status = gvi__check_rows(st, &one, one.f, e);
-        if (status == GVI_OK && all > n*R) status = gvi__check_rows(st, &one, one.dldv, e);
+        if (status == GVI_OK && adds_p) status = gvi__check_rows(st, &one, one.dldv, e);
         if (status != GVI_OK) {
             st->counters = counters;
             st->fault.point = GVI_FAULT_NONE;
             return st->status = status;
         }
 
-        one.q = past;
-        for (int twice = 0; twice < 2 && known; ++twice) {        // noise is not to be judged
-            gvi__zero(2*(size_t)n, one.f);
-            known = gvi__effect(st, &one, e, NULL) == GVI_OK;
-            before = sum;
-            sum = gvi__norm1(2*n, one.f);
-        }
-        if (gvi__nonzero(sum - before)) known = 0;
-
-        if (varies) (void)gvi__evaluate_mass(st, &at, NULL, NULL);
-        if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
-        for (int i = 0; i < all; ++i)
-            if (i % R < count) {
-                largest = gvi__larger(GVI_ABS(rows[i]), largest);
-                largest = gvi__larger(GVI_ABS(one.f[i/R]), largest);
-            }
-        huge = largest > GVI__MAX/4;
-        for (int i = 0; i < all; ++i)
-            unlike |= i % R < count && GVI_ABS(rows[i] - one.f[i/R]) > largest/GVI__SURE;
-        if (unlike && known)
-            slip = "effect: fills not all points: coordinate i of point k < x->count is at "
-                   "[i*x->stride + k]";
-
-        for (int i = 0; i < all; ++i) rows[i] = GVI__MAX;
-        if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
-        for (int i = 0; i < all; ++i) set |= i % R < count && GVI_ABS(rows[i]) < GVI__MAX/2;
-        if (set && !huge) slip = "effect: sets f or dldv with =, where it has to add with +=";
+        one.q = in->point;
+        one.v = in->point + n;
+        const char *slip = gvi__probe_loop(st, &at, &one, e, q, v);
         if (!slip) continue;
         st->counters = counters;
         return st->status = gvi__refuse(&st->fault, e, GVI_FAULT_NONE, slip);
