@@ -7970,9 +7970,9 @@ GVI__COLD gvi_real gvi__force_norm(gvi_stepper *st, const gvi_real *F, const gvi
     return GVI_ABS(gvi__dot(st->n, f, d));
 }
 
-/* Romberg's scheme, column by column in con.y: -A^-1 of rates by differences of delta, delta/2 ..,
-   of orders 2 to 12.  z: in, that of the next delta, after k others; out, what that changes. */
-static void gvi__romberg(const gvi_stepper *st, int k, gvi_real *z)
+/* Richardson's scheme, column by column in con.y: -A^-1 of rates by differences of delta, 5/8 of it
+   .., of orders 2 to 12.  z: in, that of the next delta, after k others; out, what that changes. */
+static void gvi__richardson(const gvi_stepper *st, int k, gvi_real *z)
 {
     const int m = st->in.con.m, last = k < 6 ? k : 6;
     for (int a = 0; a < m; ++a) {
@@ -7981,51 +7981,61 @@ static void gvi__romberg(const gvi_stepper *st, int k, gvi_real *z)
         for (int j = 0; j < 6 && j <= k; ++j) {
             const gvi_real old = T[j*m];
             T[j*m] = z[a] = next;
-            power *= 4;
+            power *= (gvi_real)2.56;               // (8/5)^2
             next += (next - old)/(power - 1);
         }
         z[a] -= was;
     }
 }
 
+// s'A^-1 s, s the terms of each row of G v + dg/dt, with the last G
+GVI__COLD gvi_real gvi__rate_terms(gvi_stepper *st, const gvi_real *v)
+{
+    const int m = st->in.con.m;
+    gvi_real *s = st->in.con.rho, *z = s + m;
+    for (int a = 0; a < m; ++a)
+        s[a] = z[a] = gvi__terms(st, 1, 1, v, st->in.con.G1, st->in.con.g + m, a);
+    gvi__solve_constraints(st, st->in.con.gram1, 1, 1, z, 1);
+    return GVI_ABS(gvi__dot(m, s, z));
+}
+
 /* con.y += the change of lambda with which G v + dg/dt stays 0 along the motion; that rate is
-   linear in lambda, its matrix A.  Truncation and rounding of its difference meet where two changes
-   by halves of delta are least; one alone may be small by chance.  Beyond a domain: nearer.   */
+   linear in lambda, its matrix A.  Two changes in a row by shorter differences, since one may be
+   small by chance, say how far off the one between is.  It is enough where they are the rounding
+   of a difference: eps of the rate's `terms`, and of t and q, eps `time`, as lambda changes by
+   them, over delta.  The ratio 5/8 samples no wave at its period again and again, and t + delta is
+   exact.  Beyond a domain: nearer.                                                            */
 GVI__COLD gvi_status gvi__hold_rate(gvi_stepper *st, const gvi_real *v, const gvi_real *F,
-                                    gvi_real delta)
+                                    gvi_real terms, gvi_real time, gvi_real delta)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     gvi_real *force = in->con.scratch + n, *z = in->con.rho, *best = z + m, *before = best + m,
              *sum = in->con.y, least = GVI__MAX, last = GVI__MAX;
-    const gvi_real rounding = GVI__SOLVED*GVI__EPS;
     gvi_status status = GVI_OK;
 
     (void)gvi__force_norm(st, F, sum);
     gvi__copy((size_t)n, in->answer, force);
-    for (int levels = 0, k = 0; levels < GVI__DIG; ++levels, ++k, delta /= 2) {
+    for (int levels = 0, k = 0; levels < GVI__DIG; ++levels, ++k, delta *= (gvi_real)0.625) {
         status = gvi__row_rates(st, v, force, delta, z);
         for (int a = 0; a < m; ++a) z[a] = -z[a];
         gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
-        // delta is rounded away
-        if (least < GVI__MAX && !gvi__nonzero(gvi__force_norm(st, in->zeros, z))) break;
-        gvi__romberg(st, k, z);
+        gvi__richardson(st, k, z);
         const gvi_real *now = sum + (k < 5 ? k + 1 : 6)*m, size = gvi__force_norm(st, in->zeros, z),
-                       whole = gvi__force_norm(st, force, now)
-                               + gvi__force_norm(st, in->zeros, now);
+                       both = gvi__larger(size, last), eps = GVI__EPS/delta, moved = eps*time;
         if (status != GVI_OK || !gvi__finite(size)) {
             last = GVI__MAX;
             k = -1;
             continue;
         }
 
-        const gvi_real both = gvi__larger(size, last);
-        if (both < least/16) {
+        if (both < least) {
             gvi__copy((size_t)m, size > last ? before : now, best);
             least = both;
         }
-        if (both <= rounding*(rounding*whole)) break;
-        if (both > 64*least && least <= GVI__EPS*whole) break;
+        const gvi_real whole = least < GVI__MAX ? gvi__force_norm(st, force, now)
+                                                  + gvi__force_norm(st, in->zeros, now) : 0;
+        if (least <= moved*(moved*whole) + eps*(eps*terms)) break;
         gvi__copy((size_t)m, now, before);
         last = k > 0 ? size : GVI__MAX;
     }
@@ -8036,8 +8046,8 @@ GVI__COLD gvi_status gvi__hold_rate(gvi_stepper *st, const gvi_real *v, const gv
     return GVI_OK;
 }
 
-/* A time in which much changes, |p||q|/p'v, is the first delta times 8.  d2L/dv2 by differences is
-   not A to rounding, so what it leaves is found once more.                                    */
+/* A time in which much changes, |p||q|/p'v, is the first delta, a power of 2, times 8 or more.
+   d2L/dv2 by differences is not A to rounding, so what it leaves is found once more.          */
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
 {
     gvi_status status = gvi__ready(st, st && st->in.started);
@@ -8063,10 +8073,15 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     gvi__copy((size_t)n, at.f, F);
     gvi__zero((size_t)m, in->con.y);
 
+    const gvi_real terms = m > 0 && status == GVI_OK ? gvi__rate_terms(st, v) : 0;
     for (int i = 0; i < n; ++i) size += GVI_ABS(st->p[i]*st->q[i]);
-    const gvi_real time = size > 0 ? size/GVI_ABS(gvi__dot(n, st->p, v)) : 1;
+    gvi_real time = size > 0 ? size/GVI_ABS(gvi__dot(n, st->p, v)) : 1;
+    if (!gvi__finite(time)) time = 8;
+    int exponent;
+    (void)GVI_FREXP(time, &exponent);
+    const gvi_real delta = GVI_LDEXP(1, exponent - 4);
     for (int pass = 0; m > 0 && pass < 1 + (in->adds_p > 0) && status == GVI_OK; ++pass)
-        status = gvi__hold_rate(st, v, F, gvi__finite(time) ? time/8 : 1);
+        status = gvi__hold_rate(st, v, F, terms, time + GVI_ABS(st->t), delta);
     if (status != GVI_OK) return gvi__done(st, status);
     for (int e = 0; e < in->desc.effect_count; ++e)
         for (int a = 0; a < in->desc.effects[e].rows; ++a)
