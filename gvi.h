@@ -7924,9 +7924,9 @@ GVI__COLD gvi_real gvi__force_norm(gvi_stepper *st, const gvi_real *F, const gvi
     return GVI_ABS(gvi__dot(st->n, f, d));
 }
 
-/* Romberg's scheme, column by column in con.y: -A^-1 of rates by differences of delta, delta/2 ..,
-   of orders 2 to 12.  z: in, that of the next delta, after k others; out, what that changes. */
-static void gvi__romberg(const gvi_stepper *st, int k, gvi_real *z)
+/* Richardson's scheme, column by column in con.y: -A^-1 of rates by differences of delta, 5/8 of it
+   .., of orders 2 to 12.  z: in, that of the next delta, after k others; out, what that changes. */
+static void gvi__richardson(const gvi_stepper *st, int k, gvi_real *z)
 {
     const int m = st->in.con.m, last = k < 6 ? k : 6;
     for (int a = 0; a < m; ++a) {
@@ -7935,51 +7935,61 @@ static void gvi__romberg(const gvi_stepper *st, int k, gvi_real *z)
         for (int j = 0; j < 6 && j <= k; ++j) {
             const gvi_real old = T[j*m];
             T[j*m] = z[a] = next;
-            power *= 4;
+            power *= (gvi_real)2.56;               // (8/5)^2
             next += (next - old)/(power - 1);
         }
         z[a] -= was;
     }
 }
 
+// s'A^-1 s, s the terms of each row of G v + dg/dt, with the last G
+GVI__COLD gvi_real gvi__rate_terms(gvi_stepper *st, const gvi_real *v)
+{
+    const int m = st->in.con.m;
+    gvi_real *s = st->in.con.rho, *z = s + m;
+    for (int a = 0; a < m; ++a)
+        s[a] = z[a] = gvi__terms(st, 1, 1, v, st->in.con.G1, st->in.con.g + m, a);
+    gvi__solve_constraints(st, st->in.con.gram1, 1, 1, z, 1);
+    return GVI_ABS(gvi__dot(m, s, z));
+}
+
 /* con.y += the change of lambda with which G v + dg/dt stays 0 along the motion; that rate is
-   linear in lambda, its matrix A.  Truncation and rounding of its difference meet where two changes
-   by halves of delta are least; one alone may be small by chance.  Beyond a domain: nearer.   */
+   linear in lambda, its matrix A.  Two changes in a row by shorter differences, since one may be
+   small by chance, say how far off the one between is.  It is enough where they are the rounding
+   of a difference: eps of the rate's `terms`, and of t and q, eps `time`, as lambda changes by
+   them, over delta.  The ratio 5/8 samples no wave at its period again and again, and t + delta is
+   exact.  Beyond a domain: nearer.                                                            */
 GVI__COLD gvi_status gvi__hold_rate(gvi_stepper *st, const gvi_real *v, const gvi_real *F,
-                                    gvi_real delta)
+                                    gvi_real terms, gvi_real time, gvi_real delta)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     gvi_real *force = in->con.scratch + n, *z = in->con.rho, *best = z + m, *before = best + m,
              *sum = in->con.y, least = GVI__MAX, last = GVI__MAX;
-    const gvi_real rounding = GVI__SOLVED*GVI__EPS;
     gvi_status status = GVI_OK;
 
     (void)gvi__force_norm(st, F, sum);
     gvi__copy((size_t)n, in->answer, force);
-    for (int levels = 0, k = 0; levels < GVI__DIG; ++levels, ++k, delta /= 2) {
+    for (int levels = 0, k = 0; levels < GVI__DIG; ++levels, ++k, delta *= (gvi_real)0.625) {
         status = gvi__row_rates(st, v, force, delta, z);
         for (int a = 0; a < m; ++a) z[a] = -z[a];
         gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
-        // delta is rounded away
-        if (least < GVI__MAX && !gvi__nonzero(gvi__force_norm(st, in->zeros, z))) break;
-        gvi__romberg(st, k, z);
+        gvi__richardson(st, k, z);
         const gvi_real *now = sum + (k < 5 ? k + 1 : 6)*m, size = gvi__force_norm(st, in->zeros, z),
-                       whole = gvi__force_norm(st, force, now)
-                               + gvi__force_norm(st, in->zeros, now);
+                       both = gvi__larger(size, last), eps = GVI__EPS/delta, moved = eps*time;
         if (status != GVI_OK || !gvi__finite(size)) {
             last = GVI__MAX;
             k = -1;
             continue;
         }
 
-        const gvi_real both = gvi__larger(size, last);
-        if (both < least/16) {
+        if (both < least) {
             gvi__copy((size_t)m, size > last ? before : now, best);
             least = both;
         }
-        if (both <= rounding*(rounding*whole)) break;
-        if (both > 64*least && least <= GVI__EPS*whole) break;
+        const gvi_real whole = least < GVI__MAX ? gvi__force_norm(st, force, now)
+                                                  + gvi__force_norm(st, in->zeros, now) : 0;
+        if (least <= moved*(moved*whole) + eps*(eps*terms)) break;
         gvi__copy((size_t)m, now, before);
         last = k > 0 ? size : GVI__MAX;
     }
@@ -7990,8 +8000,8 @@ GVI__COLD gvi_status gvi__hold_rate(gvi_stepper *st, const gvi_real *v, const gv
     return GVI_OK;
 }
 
-/* A time in which much changes, |p||q|/p'v, is the first delta times 8.  d2L/dv2 by differences is
-   not A to rounding, so what it leaves is found once more.                                    */
+/* A time in which much changes, |p||q|/p'v, is the first delta, a power of 2, times 8 or more.
+   d2L/dv2 by differences is not A to rounding, so what it leaves is found once more.          */
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
 {
     gvi_status status = gvi__ready(st, st && st->in.started);
@@ -8017,10 +8027,15 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     gvi__copy((size_t)n, at.f, F);
     gvi__zero((size_t)m, in->con.y);
 
+    const gvi_real terms = m > 0 && status == GVI_OK ? gvi__rate_terms(st, v) : 0;
     for (int i = 0; i < n; ++i) size += GVI_ABS(st->p[i]*st->q[i]);
-    const gvi_real time = size > 0 ? size/GVI_ABS(gvi__dot(n, st->p, v)) : 1;
+    gvi_real time = size > 0 ? size/GVI_ABS(gvi__dot(n, st->p, v)) : 1;
+    if (!gvi__finite(time)) time = 8;
+    int exponent;
+    (void)GVI_FREXP(time, &exponent);
+    const gvi_real delta = GVI_LDEXP(1, exponent - 4);
     for (int pass = 0; m > 0 && pass < 1 + (in->adds_p > 0) && status == GVI_OK; ++pass)
-        status = gvi__hold_rate(st, v, F, gvi__finite(time) ? time/8 : 1);
+        status = gvi__hold_rate(st, v, F, terms, time + GVI_ABS(st->t), delta);
     if (status != GVI_OK) return gvi__done(st, status);
     for (int e = 0; e < in->desc.effect_count; ++e)
         for (int a = 0; a < in->desc.effects[e].rows; ++a)
@@ -8452,10 +8467,16 @@ static void gvi__con_guess(const gvi_stepper *st, gvi_real *y)
         y[k] = in->con.force[(st->n + k % m)*in->R + k/m];
 }
 
-// which rows depend on others at the start?
+// which rows depend on others at the start?  A matrix that left out others will not do
 static gvi_status gvi__con_begin(gvi_stepper *st, const gvi__origin *from, gvi_real *v)
 {
-    return gvi__constraints_at(st, from->t, from->q, NULL, v, st->in.con.drops);
+    struct gvi__private *in = &st->in;
+    gvi_real *drops = in->con.drops, *was = in->con.rho;
+    gvi__copy((size_t)in->con.m, drops, was);
+    const gvi_status status = gvi__constraints_at(st, from->t, from->q, NULL, v, drops);
+    for (int a = 0; a < in->con.m; ++a)
+        if ((drops[a] > 0) != (was[a] > 0)) in->newton.h = 0;
+    return status;
 }
 
 // what the pivot of a row has lost at a point, in units of what is left of it
@@ -9665,77 +9686,110 @@ static gvi_status gvi__explain_failure(gvi_stepper *st, const gvi__origin *from,
     return status;
 }
 
-/* What is wrong with the loop of effect e over points, or NULL.  `at` is one state at all points:
-   each row's entries have to be what one point alone gives, to 1/1024 of the largest.  From the
-   largest number an effect shows whether it adds.                                             */
-GVI__COLD const char *gvi__slip(gvi_stepper *st, int e, gvi_points *at, gvi_points *one)
+/* Where a probe looks, q and v behind it: for point 0 a little past q, where a force that is 0 at
+   the start is not; for the others at 31/32 of q and half of v.                               */
+static void gvi__probe_state(int n, const gvi_real *q, const gvi_real *v, int other,
+                             gvi_real *state)
 {
-    const int n = st->n, R = at->stride, varies = st->in.desc.mass.kind == GVI_MASS_POSITION,
-              all = (1 + (st->in.desc.effects[e].kind == GVI_LAGRANGIAN))*n*R;
-    gvi_real *rows = at->f, before = 0, sum = 0, largest = 0;
-    int known = 1, unlike = 0, set = 0;
-
-    // effects may use what M(q) has computed: it comes first, as in a step
-    if (varies) (void)gvi__evaluate_mass(st, one, NULL, NULL);
-    for (int twice = 0; twice < 2 && known; ++twice) {            // noise is not to be judged
-        gvi__zero(2*(size_t)n, one->f);
-        known = gvi__effect(st, one, e, NULL) == GVI_OK;
-        before = sum;
-        sum = gvi__norm1(2*n, one->f);
+    for (int i = 0; i < n; ++i) {
+        const gvi_real ahead = GVI_SQRT(GVI__EPS)*v[i];
+        state[i] = other ? q[i] - q[i]/32 + ahead/2 : q[i] + ahead;
+        state[n + i] = other ? v[i]/2 : v[i];
     }
+}
 
-    gvi__zero((size_t)all, rows);
-    if (varies) (void)gvi__evaluate_mass(st, at, NULL, NULL);
+// effect e at one point alone, with the M(q) that it may use, which comes first, as in a step
+static gvi_status gvi__probe_one(gvi_stepper *st, gvi_points *one, int e)
+{
+    if (st->in.desc.mass.kind == GVI_MASS_POSITION) (void)gvi__evaluate_mass(st, one, NULL, NULL);
+    gvi__zero(2*(size_t)st->n, one->f);
+    return gvi__effect(st, one, e, NULL);
+}
+
+/* Does effect e, at points `at`, give what it gives at each of them alone, to 1/1024 of the largest
+   number?  And does it add that?  If not, which slip is it?  It shows in the largest.         */
+static const char *gvi__probe_loop(gvi_stepper *st, gvi_points *at, gvi_points *one, int e,
+                                   const gvi_real *q, const gvi_real *v)
+{
+    const int n = st->n, R = at->stride,
+              all = st->in.desc.effects[e].kind == GVI_LAGRANGIAN ? 2*n*R : n*R;
+    gvi_real *values = at->f, largest = 0, before = 0;
+    const char *slip = NULL;
+    int unlike = 0, set = 0;
+
+    if (st->in.desc.mass.kind == GVI_MASS_POSITION) (void)gvi__evaluate_mass(st, at, NULL, NULL);
+    gvi__zero((size_t)all, values);
     if (gvi__effect(st, at, e, NULL) != GVI_OK) return NULL;
     for (int i = 0; i < all; ++i)
-        if (i % R < at->count)
-            largest = gvi__larger(GVI_ABS(rows[i]), gvi__larger(GVI_ABS(one->f[i/R]), largest));
-    for (int i = 0; i < all; ++i)
-        unlike |= i % R < at->count && GVI_ABS(rows[i] - one->f[i/R]) > largest/GVI__SURE;
-    if (unlike && known && !gvi__nonzero(sum - before))
-        return "effect: fills not all points: coordinate i of point k < x->count is at "
-               "[i*x->stride + k]";
+        if (i % R < at->count) largest = gvi__larger(GVI_ABS(values[i]), largest);
+    for (int k = 0, known = 1; k < 2 + (at->count > 1) && known; ++k) {
+        const int other = k > 1;
+        gvi__probe_state(n, q, v, other, st->in.point);
+        known = gvi__probe_one(st, one, e) == GVI_OK;
+        const gvi_real sum = gvi__norm1(2*n, one->f);
+        if (k == 1 && gvi__nonzero(sum - before)) known = 0;      // noise is not to be judged
+        before = sum;
+        for (int i = 0; i < all/R; ++i) largest = gvi__larger(GVI_ABS(one->f[i]), largest);
+        for (int i = 0; i < all && known && k > 0; ++i)
+            unlike |= i % R < at->count && (i % R > 0) == other
+                      && GVI_ABS(values[i] - one->f[i/R]) > largest/GVI__SURE;
+    }
 
-    for (int i = 0; i < all; ++i) rows[i] = GVI__MAX;
-    if (gvi__effect(st, at, e, NULL) != GVI_OK || largest > GVI__MAX/4) return NULL;
-    for (int i = 0; i < all; ++i) set |= i % R < at->count && GVI_ABS(rows[i]) < GVI__MAX/2;
-    return set ? "effect: sets f or dldv with =, where it has to add with +=" : NULL;
+    if (unlike)
+        slip = "effect: fills not all points: coordinate i of point k < x->count is at "
+               "[i*x->stride + k]";
+    for (int i = 0; i < all; ++i) values[i] = GVI__MAX;
+    if (gvi__effect(st, at, e, NULL) != GVI_OK) return slip;
+    for (int i = 0; i < all; ++i) set |= i % R < at->count && GVI_ABS(values[i]) < GVI__MAX/2;
+    if (set && !(largest > GVI__MAX/4))
+        slip = "effect: sets f or dldv with =, where it has to add with +=";
+    return slip;
 }
 
 /* At a first start, finds callbacks whose loop over points is missing or wrong, or that set f and
-   dldv with = instead of adding to them: a little past q, where a force 0 at the start is not.  And
-   what is wrong at the very start, which no step mends.                                       */
+   dldv with = instead of adding to them.                                                      */
 GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
 {
     struct gvi__private *in = &st->in;
     const gvi_counters counters = st->counters;          // a probe is no step's work
-    gvi_points at = gvi__all_points_at(st, t, q, v);
+    gvi_points at = gvi__all_points_at(st, t, q, v), one = gvi__one_point(st, &t, in->point);
     const int n = st->n, R = at.stride;
-    gvi_real *past = in->answer + 2*n;
 
-    for (int i = 0; i < n; ++i) past[i] = q[i] + GVI_SQRT(GVI__EPS)*v[i];
-    for (int i = 0; i < n*R; ++i)
-        if (i % R < at.count) in->work.Q[i] = past[i/R];
-    gvi_points one = gvi__one_point(st, &t, past);
-    one.v = v;
-    gvi_status status = GVI_OK;
-    for (int e = 0; e < in->desc.effect_count && status == GVI_OK; ++e) {
+    for (int other = 0; other < 2; ++other) {
+        gvi__probe_state(n, q, v, other, in->point);
+        for (int i = 0; i < n*R; ++i) {
+            if (i % R >= at.count || (i % R > 0) != other) continue;
+            in->work.Q[i] = in->point[i/R];
+            if (in->work.V) in->work.V[i] = in->point[n + i/R];
+        }
+    }
+
+    for (int e = 0; e < in->desc.effect_count; ++e) {
+        const int adds_p = in->desc.effects[e].kind == GVI_LAGRANGIAN;
         if ((in->off | in->separate) >> e & 1u) continue;
+
+        // what is wrong at the very start no step mends
         one.q = q;
-        if (in->desc.mass.kind == GVI_MASS_POSITION) (void)gvi__evaluate_mass(st, &one, NULL, NULL);
-        gvi__zero(2*(size_t)n, one.f);
-        status = gvi__effect(st, &one, e, NULL);
+        one.v = v;
+        gvi_status status = gvi__probe_one(st, &one, e);
         if (status == GVI_OK) status = gvi__check_rows(st, &one, one.f, e);
-        if (status == GVI_OK) status = gvi__check_rows(st, &one, one.dldv, e);
-        one.q = past;
-        const char *slip = status == GVI_OK ? gvi__slip(st, e, &at, &one) : NULL;
-        if (slip) status = gvi__refuse(&st->fault, e, GVI_FAULT_NONE, slip);
+        if (status == GVI_OK && adds_p) status = gvi__check_rows(st, &one, one.dldv, e);
+        if (status != GVI_OK) {
+            st->counters = counters;
+            st->fault.point = GVI_FAULT_NONE;
+            return st->status = status;
+        }
+
+        one.q = in->point;
+        one.v = in->point + n;
+        const char *slip = gvi__probe_loop(st, &at, &one, e, q, v);
+        if (!slip) continue;
+        st->counters = counters;
+        return st->status = gvi__refuse(&st->fault, e, GVI_FAULT_NONE, slip);
     }
 
     st->counters = counters;
-    if (status == GVI_OK) return gvi__report_status(st, GVI_OK);
-    st->fault.point = GVI_FAULT_NONE;
-    return st->status = status;
+    return gvi__report_status(st, GVI_OK);
 }
 #endif /* GVI_NO_EXPLAIN */
 

@@ -567,6 +567,37 @@ TEST(a_term_linear_in_v_starts_from_rest)
     }
 }
 
+/* Such a charge in polar coordinates, where L alone makes the masses, from rest or nearly, at steps so short that the
+   angle moves by less than the rounding of p: L = (r'^2 + r^2 w^2)/2 + r^2 w - 3/2 r^2.  In a frame that turns by 1 it
+   is an oscillator of frequency 2: x = cos 2t + r0'/2 sin 2t, y = (1 + w0)/2 sin 2t, and the angle is that of (x, y)
+   less t. */
+GVI_EACH(charge_in_polar, 2, v, f, dldv)
+{
+    const real r = x->q[0], a = x->v[0], w = x->v[1];
+    x->f[0] += r*w*w + 2*r*w - 3*r;
+    x->dldv[0] += a;
+    x->dldv[1] += r*r*w + r*r;
+}
+
+TEST(a_general_L_starts_from_rest_however_short_the_step)
+{
+    static const real small = (real)0x1p-20L, least = (real)0x1p-30L,
+                      starts[][2] = { { 0, 0 }, { small, 0 }, { small, small }, { 0, least }, { 0.25L, -0.5L } };
+    static const gvi_effect e = { .kind = GVI_LAGRANGIAN, .points = charge_in_polar };
+    for (int k = 0; k < COUNT(starts); ++k)
+        for (int j = 3; j <= 9; ++j)
+            for (int degree = 4; degree <= 8; degree += 4) {
+                const gvi_desc desc = { .n = 2, .degree = degree, .mass = { .kind = GVI_MASS_NONE }, .effects = &e, .effect_count = 1 };
+                gvi_stepper st = new_motion(&desc, 0, (real[]){ 1, 0 }, starts[k]);
+                const real h = pow((real)10, (real)-j);
+                for (int i = 0; i < 20; ++i) assert_ok(gvi_step(&st, h));
+                const wide t = 20*(wide)h, dr = starts[k][0], L = 1 + (wide)starts[k][1],
+                           x = cosl(2*t) + dr/2*sinl(2*t), y = L/2*sinl(2*t);
+                assert_close(st.q[0], sqrtl(x*x + y*y), 8*EPS);
+                assert_close(st.q[1], atan2l(y, x) - t, 8*EPS*t);
+            }
+}
+
 /* Damped springs at a contraction of about 1/4: two bits an iteration, 27 and more of them a step, to Newton's 2 */
 GVI_EACH(damped_spring, 4, v, f)
 {

@@ -148,7 +148,7 @@ MUTANTS = [
               "1,"),
     ("constraints", "H[i*n + j] = H[j*n + i] = H[i*n + j]/2 + H[j*n + i]/2;", "{ }"),
     ("constraints", "least = in->adds_p ? GVI__SOLVED*root : GVI_SQRT(GVI__EPS*root);", "least = GVI_SQRT(GVI__EPS*root);"),
-    ("constraints", "const gvi_real both = gvi__larger(size, last);", "const gvi_real both = size;"),
+    ("constraints", "both = gvi__larger(size, last), eps", "both = size, eps"),
     ("constraints", "if (drops[a] > 0 && GVI_ABS(slip) > GVI__HELD*GVI__EPS*terms)", "if (0)"),
     ("why", "if (unlike) wrong = a;", ""),
     # which row is left out; loss
