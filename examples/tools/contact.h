@@ -33,7 +33,7 @@
                     each contact with differences, as gvi.h does
    scenes           T quadratic in v; other constraints, M(q), forces as in gvi.h.  GVI_EFFECTS limits the slots
    not seen         a lambda that changes its sign twice in a step, a gap that turns twice in 1/(s + 1) of one: take
-                    shorter steps.  Friction: docs/hard-cases.md
+                    shorter steps.  Friction: friction.h
 
    Sources: Moreau: Unilateral contact and dry friction in finite freedom dynamics, 1988; Pfeiffer, Glocker:
    Multibody dynamics with unilateral contacts, 1996; Lawson, Hanson: Solving least squares problems, 1974, ch. 23
