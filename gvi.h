@@ -967,7 +967,7 @@ struct gvi__holonomic {               /* m rows on; C = stride of D_0..D_s      
     gvi_real *rho;                    /* [m][R + C] residual of the multipliers                */
     gvi_real *at, *g, *G;             /* [n][C] D; [2m][C] g and rate; [m][n][C]               */
     gvi_real *gram;                   /* [m][m][C] G M^-1 G', factored                         */
-    gvi_real *W, *y;                  /* [n][C] scratch; [7][m]                                */
+    gvi_real *scratch, *y;            /* [n][C] scratch; [7][m]                                */
     gvi_real *G1, *gram1;              /* [2][m][n], [m][m] at one point                        */
     gvi_real *column, *first;         /* [m][n+1], [m] where G is not 0: gvi__find_columns     */
     gvi_real *drops;                  /* [2][m] rows left out: gvi__factor_constraints         */
@@ -1024,9 +1024,10 @@ struct gvi__private {
     int                 stages;       /* of an iteration: Q; Q and V; P and Q; 0: none         */
     int                 reads_v;      /* an effect does                                        */
     int                 adds_p;       /* an effect adds to dL/dv                               */
-    int                 turns;        /* where the fixed point fails, another solver follows   */
+    int                 fallback;     /* where the fixed point fails, another solver follows   */
     unsigned            parts;        /* chapters at work in this scene: bits GVI__IN_...      */
-    unsigned            off, apart;   /* effects switched off; those that a chapter evaluates  */
+    unsigned            off;          /* effects switched off                                  */
+    unsigned            separate;     /* effects that a chapter evaluates                      */
     struct gvi__tables  table;
     struct gvi__sized   sized;
     struct gvi__predictor predictor;
@@ -1035,7 +1036,7 @@ struct gvi__private {
     gvi_real            dt;           /* and that of t                                         */
     struct { gvi_real *q, *p; } began;      /* start of the last step                          */
     struct {                          /* M^-1 p; h times it; stages'                           */
-        gvi_real *v, *v_low, *path, *path_low, *rows;
+        gvi_real *v, *v_low, *path, *path_low, *values;
     } free;
     struct { gvi_real *matrix, *factor, *inverse, *sums; } mass;
     struct {                          /* changes of the rows of stages, [2n]; contraction      */
@@ -1745,7 +1746,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__SHORTER 16                    // below what the resolution allows: Newton's method
 #define GVI__STEADY ((gvi_real)0.64)       // of a fall of modes, squared, that one pair alone shows
 #define GVI__FALL 8                        // the most that it shrinks, and after a failure
-#define GVI__RESTS 4096                    // times slower than the fastest: judged with it
+#define GVI__AT_REST 4096                    // times slower than the fastest: judged with it
 #define GVI__PULLED 256                    // roundings of g, of forces that cancel or constrain
 #define GVI__DEEP (GVI__DIG/2)             // degree whose modes reach rounding
 
@@ -2250,7 +2251,7 @@ GVI_DEF gvi_real gvi_interpolate_derivative(int n, const gvi_real *x, const gvi_
    The chapters of PART II plug in at PLACES: functions gvi__place_..., which PART I calls, each
    declared in the section that calls it.  Where one chapter alone acts at a place, it defines the
    function; else the SWITCHBOARD at the end of the file does, and says in which order they act.
-   Newton's method calls constraints by functions of its own, gvi__held_...  In a step the places
+   Newton's method calls constraints by functions of its own, gvi__con_...  In a step the places
    stand behind gvi__parts(in), a bit for each chapter at work in this scene: a chapter that is not
    compiled leaves nothing, and one that is compiled but not used costs a test.                */
 
@@ -2447,19 +2448,19 @@ static gvi_points gvi__one_point(gvi_stepper *st, const gvi_real *t, const gvi_r
     return gvi__points_at(st, 1, 1, t, q, f, f + st->n);
 }
 
-// a column of rows [n][R]
-static void gvi__gather(int n, int R, const gvi_real *rows, gvi_real *out)
+// a column of values [n][R]
+static void gvi__gather(int n, int R, const gvi_real *values, gvi_real *out)
 {
-    for (; n > 0; --n, rows += R) *out++ = *rows;
+    for (; n > 0; --n, values += R) *out++ = *values;
 }
 
-// the first entry of rows [n][count] that is not finite is the fault
-static gvi_status gvi__check_rows(gvi_stepper *st, const gvi_points *at, const gvi_real *rows,
+// the first entry of values [n][count] that is not finite is the fault
+static gvi_status gvi__check_rows(gvi_stepper *st, const gvi_points *at, const gvi_real *values,
                                   int effect)
 {
-    if (!rows) return GVI_OK;
+    if (!values) return GVI_OK;
     for (int i = 0; i < at->n; ++i) {
-        const int k = gvi__first_non_finite(at->count, rows + i*at->stride);
+        const int k = gvi__first_non_finite(at->count, values + i*at->stride);
         if (k >= 0) return gvi__report(st, GVI_E_NON_FINITE, effect, i, k);
     }
     return GVI_OK;
@@ -2531,7 +2532,7 @@ GVI__COPIED gvi_status gvi__each_effect(gvi_stepper *st, gvi_points *at, unsigne
                                         gvi_real *const *value)
 {
     const int count = st->in.desc.effect_count;
-    skip |= st->in.off | st->in.apart;
+    skip |= st->in.off | st->in.separate;
     for (int e = 0; e < count; ++e) {
         if (skip >> e & 1u) continue;
         gvi_real *V = value ? value[st->in.desc.effects[e].kind] : NULL;
@@ -2629,7 +2630,7 @@ GVI__COLD gvi_status gvi__value_sums(gvi_stepper *st, gvi_real t, const gvi_real
         const gvi_kind kind = d->effects[e].kind;
         gvi_real *value = L;
         if (kind == GVI_POTENTIAL) value = V;
-        if (((st->in.off | st->in.apart) >> e & 1u) || kind == GVI_FORCE) continue;
+        if (((st->in.off | st->in.separate) >> e & 1u) || kind == GVI_FORCE) continue;
         const gvi_status status = gvi__value(st, &at, e, value);
         if (status != GVI_OK) return status;
         if (!gvi__finite(*value)) return gvi__report_effect(st, GVI_E_NON_FINITE, e);
@@ -3080,14 +3081,14 @@ GVI__COLD size_t gvi__layout(struct gvi__private *in, int order, gvi_real *base)
     const size_t n = (size_t)d->n, s = (size_t)d->degree, r = (size_t)d->rule.points,
                  R = (size_t)GVI__ROW(r);
     const size_t it = in->stages > 0, V = in->stages == 2, two = it && r < 10 && GVI__DIG > 24,
-                 two_V = two && V, phi = it && (V || in->turns || order <= 2*d->degree - 2),
+                 two_V = two && V, phi = it && (V || in->fallback || order <= 2*d->degree - 2),
                  dense = d->mass.kind == GVI_MASS_DENSE,
                  sums = dense && it && in->chosen <= GVI_VELOCITIES;
     const struct { gvi_real **to; size_t rows, width; } list[] = {
         { &in->work.F, it*n, R },     { &in->work.Q, it*n, R },     { &in->work.V, V*n, R },
         { &in->last.F, it*n, R },     { &in->last.V, V*n, R },
         { &in->older.F, two*n, R },   { &in->older.V, two_V*n, R },
-        { &in->free.rows, (it + V)*n, R }, { &in->mass.sums, sums*n, R },
+        { &in->free.values, (it + V)*n, R }, { &in->mass.sums, sums*n, R },
         { &in->table.c, 1, R },       { &in->table.b, 1, R },
         { &in->sized.hb, 1, R },      { &in->t, 1, R },
         { &in->table.phi, phi*s, R }, { &in->table.phi_low, phi*s, R },
@@ -3299,22 +3300,22 @@ static void gvi__place_before_rows(gvi_stepper *st, const struct gvi__stage *sta
 static void gvi__place_behind_rows(gvi_stepper *st, const struct gvi__stage *stage, gvi_real sum);
 static void gvi__place_last(gvi_stepper *st, const gvi__origin *from,
                             const struct gvi__stage *stage);
-static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m,
+static gvi_real gvi__place_floor(const gvi_stepper *st, gvi_real h, int i, gvi_real m,
                                 gvi_real eps, int moves);
 #else
 #define gvi__place_predictor(st, alpha, beta) ((void)(alpha))
 #define gvi__place_before_rows(st, stage) ((void)0)
 #define gvi__place_behind_rows(st, stage, sum) ((void)0)
 #define gvi__place_last(st, from, stage) ((void)0)
-#define gvi__place_push(st, h, i, m, eps, moves) ((void)(moves), (gvi_real)0)
+#define gvi__place_floor(st, h, i, m, eps, moves) ((void)(moves), (gvi_real)0)
 #endif
 
 /* PLACES of the solvers: in place of the fixed point, 1 if *status is the result; where that has
    failed; as many of `count` steps as one makes in a row, 0 if none does.                     */
 static int gvi__place_solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query,
                             gvi_status *status);
-static gvi_status gvi__place_turn(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query,
-                                  gvi_status status);
+static gvi_status gvi__place_fallback(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                      int query, gvi_status status);
 #ifndef GVI_NO_KICKS
 static int gvi__place_steps(gvi_stepper *st, gvi_real h, int count);
 #else
@@ -3362,7 +3363,7 @@ typedef struct gvi__stage {
     const gvi_real *table, *source;    /* [r][R]; [n][R]                                       */
     const gvi_real *base, *free;       /* [n]; [n][R]                                          */
     const gvi_real *inverse;           /* [n] 1/m                                              */
-    gvi_real        factor, *rows;
+    gvi_real        factor, *values;
     gvi_real       *scale, *change;    /* [n]                                                  */
     const gvi_real *plus;              /* [n][R] what chapters add to z, or NULL               */
     int             of, quiet;         /* GVI__OF_...; not judged                              */
@@ -3379,7 +3380,7 @@ GVI__BODY void gvi__free_row(int R, gvi_real low, gvi_real path, gvi_real path_l
     GVI__FOR_ROW(R, GVI__TO(row) = (low + GVI__AT(c)*path_low) + GVI__AT(c)*path)
 }
 
-// free motion v = M^-1 p and h v in double words, M constant, and its rows
+// free motion v = M^-1 p and h v in double words, M constant, and its values
 static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *in = &st->in;
@@ -3414,11 +3415,12 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real 
     }
 
     const int R = in->R;
-    gvi_real *rows = in->free.rows;
-    for (int i = 0; i < st->n; ++i, rows += R)
-        gvi__free_row(R, from->q_low[i], in->free.path[i], in->free.path_low[i], in->table.c, rows);
-    for (int i = 0; in->stages == 2 && i < st->n; ++i, rows += R)
-        gvi__free_row(R, v_low[i], 0, 0, in->table.c, rows);
+    gvi_real *values = in->free.values;
+    for (int i = 0; i < st->n; ++i, values += R)
+        gvi__free_row(R, from->q_low[i], in->free.path[i], in->free.path_low[i], in->table.c,
+                      values);
+    for (int i = 0; in->stages == 2 && i < st->n; ++i, values += R)
+        gvi__free_row(R, v_low[i], 0, 0, in->table.c, values);
 }
 
 // out := t + (t_low + c h)
@@ -3432,7 +3434,7 @@ static void gvi__stages(gvi_stepper *st, const gvi__origin *from, gvi_real h, gv
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, R = in->R, two = in->stages == 2;
-    gvi_real *free = in->free.rows;
+    gvi_real *free = in->free.values;
     const gvi_real *inverse = in->mass.inverse;
     const gvi__stage Q = { in->table.K, in->work.F, from->q, free, inverse, h, in->work.Q,
                            in->watch.scale, in->watch.change, NULL, GVI__OF_Q, 0 };
@@ -3485,7 +3487,7 @@ static gvi_real gvi__rows_by_points(const gvi_stepper *st, const gvi__stage *y, 
     const int r = st->r, R = st->in.R, last = r - 1, middle = (r - 1)/2;
     gvi_real square[8] = { 0, 0, 0, 0, 0, 0, 0, 0 }, *L = st->in.weighted;
     for (int i = 0; i < st->n; ++i) {
-        gvi_real *GVI__RESTRICT row = y->rows + i*R, scale = y->scale[i], two = 0;
+        gvi_real *GVI__RESTRICT row = y->values + i*R, scale = y->scale[i], two = 0;
         gvi__weigh(R, st->in.sized.hb, y->source + i*R, L);
         for (int k = R - 1; k >= 0; --k) {
             gvi_real sum = gvi__point_sum(r, R, y->table + k, L);
@@ -3537,7 +3539,7 @@ GVI__BODY gvi_real gvi__rows_by_lanes(const gvi_stepper *st, const gvi__stage *G
     gvi__lane square[GVI__BLOCK] = { none };
 
     GVI__LOOP(GCC unroll 2) for (int i = 0; i < n; ++i) {
-        gvi_real *row = y->rows + i*R, scale = y->scale[i];
+        gvi_real *row = y->values + i*R, scale = y->scale[i];
         const gvi_real base = y->base[i], inverse = y->inverse[i], factor = y->factor;
         const gvi_real was = row[last], half = row[middle];
         gvi__weigh(R, st->in.sized.hb, y->source + i*R, L);
@@ -3583,7 +3585,7 @@ static gvi_real gvi__rows_of_full_mass(const gvi_stepper *st, const gvi__stage *
     gvi__over_mass(st, sums, R, R);
     for (int i = 0; i < n; ++i) {
         const gvi_real base = y->base[i], factor = y->factor;
-        gvi_real *row = y->rows + i*R, *z = sums + i*R;
+        gvi_real *row = y->values + i*R, *z = sums + i*R;
         const gvi_real *free = y->free + i*R;
         GVI__ALONG(R, GVI__TO(z) = base + (GVI__AT(free) + GVI__AT(z)*factor))
         if (rescale) y->scale[i] = gvi__scale_of(base, row[last], z[last]);
@@ -3693,16 +3695,16 @@ static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query, int p
 
 // z := sum_j table_j source_j, or added to what is there, row by row
 GVI__BODY void gvi__sums_at(int n, int r, int R, const gvi_real *table, const gvi_real *source,
-                            gvi_real *rows, int add)
+                            gvi_real *values, int add)
 {
     const int block = R < 8 ? R : 8, lanes = block/GVI__LANES;
     const gvi__lane none = { 0 };
-    for (int i = 0; i < n; ++i, source += R, rows += R)
+    for (int i = 0; i < n; ++i, source += R, values += R)
         for (int o = 0; o < R; o += block) {
             gvi__lane z[GVI__BLOCK] = { none };
             gvi__row_sums(r, R, lanes, table + o, source, z);
             GVI__UNROLL for (int v = 0; v < lanes; ++v) {
-                gvi_real *at = rows + o + v*GVI__LANES;
+                gvi_real *at = values + o + v*GVI__LANES;
                 if (add) z[v] += GVI__LOAD(at);
                 GVI__STORE(at) = z[v];
             }
@@ -3710,28 +3712,28 @@ GVI__BODY void gvi__sums_at(int n, int r, int R, const gvi_real *table, const gv
 }
 
 static void gvi__sums(const gvi_stepper *st, const gvi_real *table, const gvi_real *source,
-                      gvi_real *rows, int add)
+                      gvi_real *values, int add)
 {
     const int n = st->n, r = st->r, R = st->in.R;
-    if (GVI__LANES > 1 && r == 8) gvi__sums_at(n, 8, 8, table, source, rows, add);
-    else if (GVI__LANES > 1 && r > 4 && R == 8) gvi__sums_at(n, r, 8, table, source, rows, add);
-    else if (GVI__LANES > 1 && R == 16) gvi__sums_at(n, r, 16, table, source, rows, add);
-    else if (GVI__LANES > 1 && r > 4) gvi__sums_at(n, r, R, table, source, rows, add);
-    else for (int i = 0; i < n; ++i, source += R, rows += R)
+    if (GVI__LANES > 1 && r == 8) gvi__sums_at(n, 8, 8, table, source, values, add);
+    else if (GVI__LANES > 1 && r > 4 && R == 8) gvi__sums_at(n, r, 8, table, source, values, add);
+    else if (GVI__LANES > 1 && R == 16) gvi__sums_at(n, r, 16, table, source, values, add);
+    else if (GVI__LANES > 1 && r > 4) gvi__sums_at(n, r, R, table, source, values, add);
+    else for (int i = 0; i < n; ++i, source += R, values += R)
         for (int k = 0; k < R; ++k) {
             const gvi_real z = gvi__point_sum(r, R, table + k, source);
-            rows[k] = add ? rows[k] + z : z;
+            values[k] = add ? values[k] + z : z;
         }
 }
 
 // stage values by the predictor
 static void gvi__extrapolate(const gvi_stepper *st, const gvi_real *last, const gvi_real *older,
-                             gvi_real *rows)
+                             gvi_real *values)
 {
     const struct gvi__predictor *predictor = &st->in.predictor;
     const gvi_real *E = predictor->steps ? predictor->equal : predictor->one;
-    gvi__sums(st, E, last, rows, 0);
-    if (predictor->steps == 2) gvi__sums(st, E + st->r*st->in.R, older, rows, 1);
+    gvi__sums(st, E, last, values, 0);
+    if (predictor->steps == 2) gvi__sums(st, E + st->r*st->in.R, older, values, 1);
 }
 
 // stage values to begin with: of extrapolated sources, or of no force
@@ -3742,11 +3744,11 @@ static gvi_status gvi__predict(gvi_stepper *st, const gvi__origin *from, gvi_rea
     const int R = in->R;
     if (extrapolate && in->predictor.sums) {
         const gvi__stage *y = stage;
-        gvi__extrapolate(st, in->last.F, in->older.F, y->rows);
+        gvi__extrapolate(st, in->last.F, in->older.F, y->values);
         for (int i = 0; i < st->n; ++i) {
             const gvi_real *free = y->free + i*R, base = y->base[i], inverse = y->inverse[i],
                            factor = h*y->factor;
-            gvi_real *row = y->rows + i*R;
+            gvi_real *row = y->values + i*R;
             GVI__FOR_ROW(R, GVI__TO(row) = base + (GVI__AT(free) + GVI__AT(row)*inverse*factor))
         }
         return GVI_OK;
@@ -3798,7 +3800,7 @@ static gvi_real gvi__size_of_row(const gvi_stepper *st, const gvi__stage *stage,
 {
     gvi_real size = GVI_ABS(stage->base[i]);
     for (int j = 0; j < st->r; ++j)
-        size = gvi__larger(GVI_ABS(stage->rows[i*st->in.R + j]), size);
+        size = gvi__larger(GVI_ABS(stage->values[i*st->in.R + j]), size);
     return size;
 }
 
@@ -3844,10 +3846,10 @@ GVI__CALLED gvi_real gvi__excess(const gvi_stepper *st, gvi_real h, const gvi__s
             const int moves = all && (y->of == GVI__OF_Q || st->in.desc.iterations > 0);
             const gvi_real m = gvi__inertia(st, i), unit = gvi__amplitude_of(st, h, y, m),
                            size = all ? largest : unit*gvi__size_of_row(st, y, i),
-                           push = parts ? gvi__place_push(st, h, i, m, eps, moves) : 0;
+                           added = parts ? gvi__place_floor(st, h, i, m, eps, moves) : 0;
             if (!(y->scale[i] > 0) || !(y->change[i] > 0)) continue;
             const gvi_real change = unit*(GVI_SQRT(y->change[i])/y->scale[i]);
-            excess = gvi__larger(change/(eps*size + GVI_SQRT(m)*push), excess);
+            excess = gvi__larger(change/(eps*size + GVI_SQRT(m)*added), excess);
         }
     return excess;
 }
@@ -3905,25 +3907,25 @@ static void gvi__note(gvi_stepper *st, gvi__progress *p, gvi_real D)
    once, below that of all rows after a while, which as a rule is above what a row can reach.
    What is above it and falls by less than a bit, time after time, does not converge.  Under rows
    that roll the rounding of P is in every D, and shows sooner.                                */
-static int gvi__rests(gvi_stepper *st, gvi__progress *p, gvi_real h, const gvi__stage *stage)
+static int gvi__at_floor(gvi_stepper *st, gvi__progress *p, gvi_real h, const gvi__stage *stage)
 {
     const int rolls = gvi__parts(&st->in) && gvi__place_rolls(st),
               long_since = p->idle > 4 - 3*rolls, poor = gvi__is_poor(p),
               still = p->idle > 1 - rolls && !(gvi__parts(&st->in) && gvi__place_moves(st)),
-              slow = st->in.turns && p->used - p->idle >= GVI__SLOW,
-              rest = slow ? GVI__DIVERGES : GVI__ONCE_MORE;
+              slow = st->in.fallback && p->used - p->idle >= GVI__SLOW,
+              end = slow ? GVI__DIVERGES : GVI__ONCE_MORE;
 
-    if (still && gvi__excess(st, h, stage, 0) <= 1) return rest;
+    if (still && gvi__excess(st, h, stage, 0) <= 1) return end;
     if (!poor) p->poor = 0;
     if (!poor && !long_since) return GVI__GO_ON;
 
     const gvi_real excess = gvi__excess(st, h, stage, 1);
-    if (still && long_since && excess <= 1) return rest;
+    if (still && long_since && excess <= 1) return end;
 
     // a row that tends to 0 changes by its whole size: does its amplitude fall?
     p->poor = excess > 1 && excess > p->excess/2 ? p->poor + poor : 0;
     p->excess = excess;
-    return st->in.turns && p->poor > GVI__PATIENCE ? GVI__DIVERGES : GVI__GO_ON;
+    return st->in.fallback && p->poor > GVI__PATIENCE ? GVI__DIVERGES : GVI__GO_ON;
 }
 
 static int gvi__verdict(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h,
@@ -3945,7 +3947,7 @@ static int gvi__verdict(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real 
         return first || falls || gvi__excess(st, h, stage, 1) <= 1 ? GVI__DONE : GVI__DIVERGES;
     }
 
-    const int verdict = gvi__rests(st, p, h, stage);
+    const int verdict = gvi__at_floor(st, p, h, stage);
     return verdict == GVI__GO_ON && p->used >= d->max_iterations ? GVI__DIVERGES : verdict;
 }
 
@@ -4035,19 +4037,19 @@ GVI__COPIED gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
     return gvi__two_of(hi[0], lo[0]);
 }
 
-// increments := sums of h b times rows, their low words with those of the start
-static void gvi__sum_rows(const gvi_stepper *st, gvi_real *rows, const gvi_real *low, gvi_real *sum,
-                          gvi_real *sum_low)
+// increments := sums of h b times values, their low words with those of the start
+static void gvi__sum_rows(const gvi_stepper *st, gvi_real *values, const gvi_real *low,
+                          gvi_real *sum, gvi_real *sum_low)
 {
     const int R = st->in.R;
-    for (int i = 0; i < st->n; ++i, rows += R) {
+    for (int i = 0; i < st->n; ++i, values += R) {
         // a callback may have left anything there
-        if (st->r < R) gvi__zero((size_t)(R - st->r), rows + st->r);
+        if (st->r < R) gvi__zero((size_t)(R - st->r), values + st->r);
         gvi__two z;
-        if (GVI__IS(R, 8)) z = gvi__exact_dot(8, st->in.sized.hb, rows);
-        else if (GVI__IS(R, 4)) z = gvi__exact_dot(4, st->in.sized.hb, rows);
-        else if (GVI__IS(R, 16)) z = gvi__exact_dot(16, st->in.sized.hb, rows);
-        else z = gvi__exact_dot(R, st->in.sized.hb, rows);
+        if (GVI__IS(R, 8)) z = gvi__exact_dot(8, st->in.sized.hb, values);
+        else if (GVI__IS(R, 4)) z = gvi__exact_dot(4, st->in.sized.hb, values);
+        else if (GVI__IS(R, 16)) z = gvi__exact_dot(16, st->in.sized.hb, values);
+        else z = gvi__exact_dot(R, st->in.sized.hb, values);
         sum[i] = z.hi;
         sum_low[i] = gvi__low(z.lo + low[i]);
     }
@@ -4074,7 +4076,7 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
     gvi__sum_rows(st, in->work.F, from->p_low, in->step.p, in->step.p_low);
     if (gvi__parts(in) && gvi__place_increments(st, from)) return;
     for (int i = 0; i < st->n; ++i, F += R) {
-        in->step.q[i] = gvi__parts(in) & GVI__IN_CONSTRAINTS && in->apart & ~in->off
+        in->step.q[i] = gvi__parts(in) & GVI__IN_CONSTRAINTS && in->separate & ~in->off
                             ? gvi__place_bow(st, i)
                             : GVI__IS(R, 8) ? gvi__bow(8, c, hb, F) : gvi__bow(R, c, hb, F);
     }
@@ -4141,7 +4143,8 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
     if (!solved && gvi__iterates(in)) {
         gvi__times(in->R, from->t, from->t_low, h, in->table.c, in->t);
         status = gvi__fixed_point(st, from, h, query);
-        if (status != GVI_OK && in->turns) status = gvi__place_turn(st, from, h, query, status);
+        if (status != GVI_OK && in->fallback)
+            status = gvi__place_fallback(st, from, h, query, status);
     }
 
     if (status == GVI_OK && gvi__parts(in)) status = gvi__place_finish(st, from);
@@ -4274,10 +4277,10 @@ static int gvi__place_line(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi
 #define gvi__place_line(st, tau, q, v) 0
 #endif
 #ifndef GVI_NO_CONSTRAINTS
-static void gvi__place_held(const gvi_stepper *st, gvi_real tau, const gvi_real *phi,
-                            const gvi_real *Phi, gvi_real *q, gvi_real *v);
+static void gvi__place_reactions(const gvi_stepper *st, gvi_real tau, const gvi_real *phi,
+                                 const gvi_real *Phi, gvi_real *q, gvi_real *v);
 #else
-#define gvi__place_held(st, tau, phi, Phi, q, v) ((void)0)
+#define gvi__place_reactions(st, tau, phi, Phi, q, v) ((void)0)
 #endif
 #ifndef GVI_NO_CLOCK
 static gvi_status gvi__place_curve(gvi_stepper *st, const gvi_real *q, gvi_real *v);
@@ -4400,7 +4403,8 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     if (!saved || !memory || !saved->in.memory || saved->n != st->n || saved->s != st->s
         || saved->r != st->r || saved->in.size != in->size || saved->in.chosen != in->chosen
         || saved->in.reads_v != in->reads_v || saved->in.adds_p != in->adds_p
-        || saved->in.apart != in->apart || saved->in.desc.effect_count != in->desc.effect_count
+        || saved->in.separate != in->separate
+        || saved->in.desc.effect_count != in->desc.effect_count
         || saved->in.desc.mass.kind != in->desc.mass.kind)
         return gvi__refuse_call(st, "saved or memory is NULL, not set up, or of another scene");
     const struct gvi__private own = *in;
@@ -4452,7 +4456,7 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
     const int n = st->n, R = in->R, by_forces = in->stages == 1 && !in->has_velocity;
     const gvi_real *modes = by_forces ? in->table.Phi : in->table.phi,
                    *weight = by_forces ? in->sized.hb : in->table.b,
-                   *rows = by_forces ? in->last.F : in->last.V;
+                   *values = by_forces ? in->last.F : in->last.V;
     gvi_real *v0 = in->free.v;
 
     if (gvi__parts(in) && gvi__place_line(st, tau, q, v)) return;
@@ -4472,13 +4476,13 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
             T = 1 - T;
         }
         for (int i = 0; i < n; ++i) {
-            const gvi_real L = weight[j]*rows[i*R + j];
+            const gvi_real L = weight[j]*values[i*R + j];
             q[i] += S*L;
             v[i] += T*L;
         }
     }
 
-    if (gvi__parts(in)) gvi__place_held(st, tau, phi, Phi, q, v);
+    if (gvi__parts(in)) gvi__place_reactions(st, tau, phi, Phi, q, v);
     if (by_forces) {
         gvi__over_mass(st, q, 1, 1);
         gvi__over_mass(st, v, 1, 1);
@@ -4558,11 +4562,11 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
     gvi__copy((size_t)n, at->dldv, base);
     for (int j = 0; j < n; ++j) {
         const gvi_real was = v[j];
-        const int rests = !gvi__nonzero(was);
-        const gvi_real wanted = rests ? GVI_ABS(p ? p[j] : st->in.sized.h*at->f[j]) : 0,
-                       push = root*gvi__larger(wanted, GVI_ABS(base[j]));
+        const int at_rest = !gvi__nonzero(was);
+        const gvi_real wanted = at_rest ? GVI_ABS(p ? p[j] : st->in.sized.h*at->f[j]) : 0,
+                       target = root*gvi__larger(wanted, GVI_ABS(base[j]));
         gvi_real d = 0, edge = GVI__MAX, next = root*GVI_ABS(was);
-        if (rests) next = root*(gvi__norm1(n, v)/(gvi_real)n);
+        if (at_rest) next = root*(gvi__norm1(n, v)/(gvi_real)n);
         if (!(next > GVI__MIN/GVI__EPS)) next = root;
         for (int k = 0; k < 12; ++k) {
             v[j] = was + next;
@@ -4576,9 +4580,9 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
                 edge = GVI_ABS(d);
                 next = d*root;
                 if (GVI_ABS(d)*root < 2*GVI__EPS*GVI_ABS(was)) next = -2*GVI__EPS*was;
-            } else if (rests && push > 0 && moved > 16*push) {
-                next = d*(push/moved);
-            } else if (moved < push/2 && GVI_ABS(d)/GVI_SQRT(root) < edge) {
+            } else if (at_rest && target > 0 && moved > 16*target) {
+                next = d*(target/moved);
+            } else if (moved < target/2 && GVI_ABS(d)/GVI_SQRT(root) < edge) {
                 next = d/GVI_SQRT(root);
             } else break;
             if (!gvi__nonzero(next)) break;
@@ -4592,14 +4596,15 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
 
 /* left := p - dL/dv; returns the largest over what rounding of v and p makes of it: of each, and
    *all of that of the largest amplitude, momenta over sqrt M_ii, since terms may cancel in dL/dv */
-static gvi_real gvi__legendre_miss(int n, const gvi_real *W, const gvi_real *v, const gvi_real *p,
-                                   const gvi_real *P, gvi_real *left, gvi_real *all)
+static gvi_real gvi__legendre_miss(int n, const gvi_real *hessian, const gvi_real *v,
+                                   const gvi_real *p, const gvi_real *P, gvi_real *left,
+                                   gvi_real *all)
 {
     gvi_real miss = 0, most = 0, largest = 0;
     for (int i = 0; i < n; ++i) {
-        const gvi_real unit = GVI_SQRT(GVI_ABS(W[i*n + i]));
+        const gvi_real unit = GVI_SQRT(GVI_ABS(hessian[i*n + i]));
         gvi_real terms = GVI_ABS(p[i]);
-        for (int j = 0; j < n; ++j) terms += GVI_ABS(W[i*n + j]*v[j]);
+        for (int j = 0; j < n; ++j) terms += GVI_ABS(hessian[i*n + j]*v[j]);
         left[i] = p[i] - P[i];
         if (GVI_ABS(left[i]) > miss*terms) miss = GVI_ABS(left[i])/terms;
         if (terms > largest*unit) largest = terms/unit;
@@ -4617,7 +4622,8 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
 {
     const int n = st->n;
     const gvi_real rounding = 2*GVI__PLACE*GVI__EPS*(gvi_real)n;
-    gvi_real *W = st->in.lagrangian.hessian, *pivot = W + n*n, *dv = st->in.lagrangian.column + n,
+    gvi_real *hessian = st->in.lagrangian.hessian, *pivot = hessian + n*n,
+             *dv = st->in.lagrangian.column + n,
              least = GVI__MAX, last = GVI__MAX;
     int at;
 
@@ -4627,10 +4633,10 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
         gvi_real miss = 0, all = 0, change = 0;
         gvi_status status = gvi__evaluate(st, x, 0, 1);
         if (status == GVI_OK && gvi__first_non_finite(n, x->dldv) >= 0) status = GVI_E_NON_FINITE;
-        if (status == GVI_OK) status = gvi__velocity_hessian(st, x, v, p, W);
+        if (status == GVI_OK) status = gvi__velocity_hessian(st, x, v, p, hessian);
         if (status == GVI_OK) {
-            miss = gvi__legendre_miss(n, W, v, p, x->dldv, dv + n, &all);
-            status = gvi__lu_factor(n, W, pivot, &at);
+            miss = gvi__legendre_miss(n, hessian, v, p, x->dldv, dv + n, &all);
+            status = gvi__lu_factor(n, hessian, pivot, &at);
             gvi__count(&st->counters.factorizations, 1);
             if (status == GVI_E_SINGULAR)
                 return gvi__report(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE);
@@ -4648,7 +4654,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
         if (status == GVI_E_NON_FINITE) return gvi__report_effect(st, status, GVI_FAULT_MASS);
         if (status != GVI_OK) return status;
         gvi__copy((size_t)n, dv + n, dv);
-        gvi_lu_solve(n, W, pivot, dv);
+        gvi_lu_solve(n, hessian, pivot, dv);
         for (int i = 0; i < n; ++i) {
             v[i] += dv[i];
             if (gvi__nonzero(dv[i])) change += GVI_ABS(dv[i])/(GVI_ABS(dv[i]) + GVI_ABS(v[i]));
@@ -4948,18 +4954,18 @@ static void gvi__momenta_stages(gvi_stepper *st, const gvi__origin *from, gvi__s
     stage[1].table = in->momenta.T;
     stage[1].source = in->work.V;
     stage[1].base = from->q;
-    stage[1].rows = in->work.Q;
+    stage[1].values = in->work.Q;
     stage[1].of = GVI__OF_Q;
     stage[0].table = in->table.U;
     stage[0].base = from->p;
     stage[0].factor = 1;
-    stage[0].rows = in->momenta.P;
+    stage[0].values = in->momenta.P;
     stage[0].of = GVI__OF_P;
     stage[0].inverse = stage[1].inverse = in->momenta.ones;
     in->momenta.has_factor = 0;
     for (int i = 0; i < n; ++i) {
-        gvi__free_row(R, from->p_low[i], 0, 0, in->table.c, in->free.rows + i*R);
-        gvi__free_row(R, from->q_low[i], 0, 0, in->table.c, in->free.rows + (n + i)*R);
+        gvi__free_row(R, from->p_low[i], 0, 0, in->table.c, in->free.values + i*R);
+        gvi__free_row(R, from->q_low[i], 0, 0, in->table.c, in->free.values + (n + i)*R);
     }
 }
 
@@ -5055,7 +5061,7 @@ static gvi_status gvi__momenta_evaluate(gvi_stepper *st, const gvi__origin *from
     else if (GVI__LOOKS(st)) status = gvi__check_rows(st, at, in->work.V, GVI_FAULT_MASS);
     const int others = (gvi__parts(in) & (GVI__IN_CLOCK | GVI__IN_CONSTRAINTS)) != 0;
     if (st->n > 2 && in->momenta.mass && !others) {
-        const gvi__stage Q = { in->momenta.T, in->work.V, from->q, in->free.rows + st->n*in->R,
+        const gvi__stage Q = { in->momenta.T, in->work.V, from->q, in->free.values + st->n*in->R,
                                in->momenta.ones, 1, in->work.Q, in->watch.scale + st->n,
                                in->momenta.was, NULL, GVI__OF_Q, 1 };
         in->kernel(st, &Q, 0);
@@ -5145,12 +5151,12 @@ static void gvi__time_sums(const gvi_stepper *st, const gvi_real *source, gvi_re
 }
 
 /* H - E for a coordinate whose force is F: unchanged, unless its rounding, within `none`, would
-   push a light body by more than 1024 eps of F; then 0 up to `none`, unchanged from 2 none on. */
+   move a light body by more than 1024 eps of F; then 0 up to `none`, unchanged from 2 none on. */
 static gvi_real gvi__sure_level(gvi_real level, gvi_real none, gvi_real slope, gvi_real F)
 {
-    const gvi_real limit = GVI__SURE*GVI__EPS*F, push = GVI_ABS(slope)*none, size = GVI_ABS(level);
-    if (push <= limit) return level;
-    if (push < 2*limit) none *= push/limit - 1;
+    const gvi_real limit = GVI__SURE*GVI__EPS*F, force = GVI_ABS(slope)*none, size = GVI_ABS(level);
+    if (force <= limit) return level;
+    if (force < 2*limit) none *= force/limit - 1;
     gvi_real sure = size;
     if (size < 2*none) sure = 2*(size - none);
     if (size <= none) sure = 0;
@@ -5263,8 +5269,8 @@ GVI__COLD void gvi__clock_layout(struct gvi__private *in, gvi__arena *a)
 {
     struct gvi__time *t = &in->time;
     const size_t n = (size_t)in->desc.n, R = (size_t)GVI__ROW(in->desc.rule.points);
-    gvi_real **const rows[] = { &t->rate, &t->power, &t->level, &t->lagrangian, &t->noise };
-    for (int k = 0; k < 5; ++k) *rows[k] = gvi__take(a, 1, R);
+    gvi_real **const tables[] = { &t->rate, &t->power, &t->level, &t->lagrangian, &t->noise };
+    for (int k = 0; k < 5; ++k) *tables[k] = gvi__take(a, 1, R);
     t->slope = gvi__take(a, n, R);
 }
 
@@ -5535,7 +5541,7 @@ static int gvi__place_steps(gvi_stepper *st, gvi_real h, int count)
     gvi_real t0 = st->t0;
     int made = 0;
 
-    if (!(gvi__parts(in) & GVI__IN_KICKS) || in->apart) return 0;         // apart: constraints
+    if (!(gvi__parts(in) & GVI__IN_KICKS) || in->separate) return 0;      // separate: constraints
 #ifndef GVI_NO_DIAL
     if (in->dial.high) return 0;                   // each step is measured
 #endif
@@ -5625,37 +5631,37 @@ typedef struct gvi__descent {
    coordinate i; its own rows; its part of the matrix; the row of it that is singular; unknowns to
    begin with; the start of a step, its end, and the momenta that it brings.                   */
 #ifndef GVI_NO_CONSTRAINTS
-static size_t gvi__held(const gvi_stepper *st);
-static int gvi__held_rows(const struct gvi__private *in);        // on or off
-static void gvi__held_start(gvi_stepper *st);
-static gvi_status gvi__held_values(gvi_stepper *st, const gvi__origin *from);
-static void gvi__held_force(const gvi_stepper *st, int i, int k, gvi_real *force, gvi_real *size);
-static gvi_real gvi__held_residual(gvi_stepper *st, gvi__descent *p, gvi_real *moved,
+static size_t gvi__con_unknowns(const gvi_stepper *st);
+static int gvi__con_rows(const struct gvi__private *in);        // on or off
+static void gvi__con_start(gvi_stepper *st);
+static gvi_status gvi__con_values(gvi_stepper *st, const gvi__origin *from);
+static void gvi__con_force(const gvi_stepper *st, int i, int k, gvi_real *force, gvi_real *size);
+static gvi_real gvi__con_residual(gvi_stepper *st, gvi__descent *p, gvi_real *moved,
                                    gvi_real *before);
-static gvi_status gvi__held_matrix(gvi_stepper *st, const gvi__matrix *J);
-static gvi_status gvi__held_report(gvi_stepper *st, gvi_status status, int at);
-static void gvi__held_guess(const gvi_stepper *st, gvi_real *y);
-static gvi_status gvi__held_begin(gvi_stepper *st, const gvi__origin *from, gvi_real *v);
-static gvi_status gvi__held_end(gvi_stepper *st);
-static void gvi__held_impulse(gvi_stepper *st);
+static gvi_status gvi__con_matrix(gvi_stepper *st, const gvi__matrix *J);
+static gvi_status gvi__con_report(gvi_stepper *st, gvi_status status, int at);
+static void gvi__con_guess(const gvi_stepper *st, gvi_real *y);
+static gvi_status gvi__con_begin(gvi_stepper *st, const gvi__origin *from, gvi_real *v);
+static gvi_status gvi__con_end(gvi_stepper *st);
+static void gvi__con_impulse(gvi_stepper *st);
 #else
-#define gvi__held(st) ((size_t)0)
-#define gvi__held_rows(in) 0
-#define gvi__held_start(st) ((void)0)
-#define gvi__held_values(st, from) GVI_OK
-#define gvi__held_force(st, i, k, force, size) ((void)0)
-#define gvi__held_residual(st, p, moved, before) 0
-#define gvi__held_matrix(st, J) GVI_OK
-#define gvi__held_report(st, status, at) (status)
-#define gvi__held_guess(st, y) ((void)0)
-#define gvi__held_begin(st, from, v) GVI_OK
-#define gvi__held_end(st) GVI_OK
-#define gvi__held_impulse(st) ((void)0)
+#define gvi__con_unknowns(st) ((size_t)0)
+#define gvi__con_rows(in) 0
+#define gvi__con_start(st) ((void)0)
+#define gvi__con_values(st, from) GVI_OK
+#define gvi__con_force(st, i, k, force, size) ((void)0)
+#define gvi__con_residual(st, p, moved, before) 0
+#define gvi__con_matrix(st, J) GVI_OK
+#define gvi__con_report(st, status, at) (status)
+#define gvi__con_guess(st, y) ((void)0)
+#define gvi__con_begin(st, from, v) GVI_OK
+#define gvi__con_end(st) GVI_OK
+#define gvi__con_impulse(st) ((void)0)
 #endif
 
 static size_t gvi__unknowns(const gvi_stepper *st, int k0)
 {
-    return (size_t)(st->s - k0)*(size_t)st->n + gvi__held(st);
+    return (size_t)(st->s - k0)*(size_t)st->n + gvi__con_unknowns(st);
 }
 
 // that of steps; that of queries, which must not touch what steps keep
@@ -5699,7 +5705,7 @@ static gvi_status gvi__newton_values(gvi_stepper *st, const gvi__origin *from)
     gvi_points at = gvi__points_at(st, st->r, R, in->t, in->work.Q, in->work.F, in->newton.P);
     at.v = in->work.V;
     const gvi_status status = gvi__evaluate(st, &at, 0, 1);
-    return status == GVI_OK && gvi__held(st) > 0 ? gvi__held_values(st, from) : status;
+    return status == GVI_OK && gvi__con_unknowns(st) > 0 ? gvi__con_values(st, from) : status;
 }
 
 /* dy and residual := -(1).  The weights of P are h b_i/h, those that F has, and Phi_0 = c is on
@@ -5712,7 +5718,7 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, const gv
     struct gvi__private *in = &st->in;
     const int n = st->n, R = in->R, k0 = J->k0, first = !(p->norm < GVI__MAX),
               known = J->scale && st->in.desc.mass.kind == GVI_MASS_NONE,
-              held = gvi__held(st) > 0;
+              constrained = gvi__con_unknowns(st) > 0;
     const gvi_real h = in->sized.h;
     gvi_real norm = 0, moved = 0, before = 0;
 
@@ -5726,15 +5732,15 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, const gv
             gvi_real momentum = k == 0 ? -(h*from->p_low[i]) : 0, force = 0, size = 0, forces = 0;
             for (int j = 0; j < st->r; ++j) {
                 const gvi_real phi = in->table.phi[k*R + j],
-                               W = (k == 0 ? 1 : 0) - in->table.Phi[k*R + j];
-                const gvi_real b = W*(in->sized.hb[j]*F[j]);
+                               w = (k == 0 ? 1 : 0) - in->table.Phi[k*R + j];
+                const gvi_real b = w*(in->sized.hb[j]*F[j]);
                 momentum += phi*(in->sized.hb[j]*(P[j] - base));
                 force += b;
                 size += GVI_ABS(phi*(in->table.b[j]*P[j]));
                 forces += GVI_ABS(b);
             }
             momenta = gvi__larger(size, momenta);
-            if (held) gvi__held_force(st, i, k, &force, &forces);
+            if (constrained) gvi__con_force(st, i, k, &force, &forces);
             size += forces;
             const gvi_real sum = momentum/h - force;
             gvi_real *rest = in->newton.residual + (k - k0)*n + i;
@@ -5753,7 +5759,7 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, const gv
         before += was*in->watch.scale[i];
     }
 
-    if (held) norm += gvi__held_residual(st, p, &moved, &before);
+    if (constrained) norm += gvi__con_residual(st, p, &moved, &before);
     p->holds = p->work <= GVI__SOLVED*GVI__EPS || (!first && moved >= before/2);
     return norm;
 }
@@ -5775,9 +5781,9 @@ static void gvi__add_derivative(const gvi_stepper *st, const gvi__matrix *J, int
     }
 
     for (int k = k0; k < s; ++k) {
-        const gvi_real W = (k == 0 ? 1 : 0) - Phi[k*R];
+        const gvi_real w = (k == 0 ? 1 : 0) - Phi[k*R];
         const gvi_real a = (gvi_real)(2*k + 1)
-                           * (in->table.b[point]*phi[k*R]*p - in->sized.hb[point]*W*f);
+                           * (in->table.b[point]*phi[k*R]*p - in->sized.hb[point]*w*f);
         const size_t row = (size_t)((k - k0)*n + i);
         gvi_real *square = J->square + row*size + j;
         for (int l = k0; l < s; ++l, square += n) *square += a*(unit*u[l*R]);
@@ -5855,15 +5861,15 @@ static gvi_real gvi__move_of(const gvi_stepper *st, int i, int by_v)
     const struct gvi__private *in = &st->in;
     const gvi_real h = GVI_ABS(in->sized.h), small = by_v ? 0 : GVI_SQRT(GVI_SQRT(GVI__EPS)),
                    hw = h*in->watch.scale[i];
-    gvi_real most = 0, push = 0;
+    gvi_real most = 0, by_force = 0;
     for (int k = i*in->R; k < i*in->R + st->r; ++k) {
         const gvi_real lengths[] = { h*GVI_ABS(in->work.V[k]), small*GVI_ABS(in->work.Q[k]),
                                      hw*GVI_ABS(in->newton.P[k])*in->watch.scale[i] },
                        f = hw*GVI_ABS(in->work.F[k])*hw;
         for (int l = 0; l < 3; ++l) if (lengths[l] > most) most = lengths[l];
-        if (f > push && gvi__finite(f)) push = f;
+        if (f > by_force && gvi__finite(f)) by_force = f;
     }
-    return push > most && (by_v || !(most > GVI__MIN/GVI__EPS)) ? push : most;
+    return by_force > most && (by_v || !(most > GVI__MIN/GVI__EPS)) ? by_force : most;
 }
 
 /* The difference for coordinate j: sqrt(eps) of its reach, or of the largest where it has none,
@@ -5939,7 +5945,7 @@ static gvi_status gvi__jacobian_fill(gvi_stepper *st, const gvi__matrix *J)
     gvi__zero(size*(size + (J->ends ? 2*n : 0)), J->square);
     gvi_status status = gvi__check_regular(st);
     if (status == GVI_OK) status = gvi__jacobian_exact(st, J);
-    if (status == GVI_OK && gvi__held(st) > 0) status = gvi__held_matrix(st, J);
+    if (status == GVI_OK && gvi__con_unknowns(st) > 0) status = gvi__con_matrix(st, J);
     return status == GVI_OK ? gvi__jacobian_differences(st, J) : status;
 }
 
@@ -5980,20 +5986,20 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
     status = gvi__lu_factor(size, J->square, J->pivot, &at);
     gvi__count(&st->counters.factorizations, 1);
     if (status == GVI_OK) return GVI_OK;
-    if (at >= modes) return gvi__held_report(st, status, at - modes);
+    if (at >= modes) return gvi__con_report(st, status, at - modes);
     return gvi__report(st, status, GVI_FAULT_NONE, at < 0 ? GVI_FAULT_NONE : at % n,
                        GVI_FAULT_NONE);
 }
 
-// y := modes of V as the predictor continues it; rows get that V
-static void gvi__newton_modes(gvi_stepper *st, const gvi_real *V, gvi_real *rows)
+// y := modes of V as the predictor continues it; values get that V
+static void gvi__newton_modes(gvi_stepper *st, const gvi_real *V, gvi_real *values)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, s = st->s, R = in->R;
-    gvi__sums(st, in->predictor.one, V, rows, 0);
+    gvi__sums(st, in->predictor.one, V, values, 0);
     for (int i = 0; i < n; ++i) {
         for (int k = 0; k < s; ++k)
-            in->set_up[k] = gvi__dot3(st->r, in->table.phi + k*R, in->table.b, rows + i*R);
+            in->set_up[k] = gvi__dot3(st->r, in->table.phi + k*R, in->table.b, values + i*R);
         gvi__over_gamma(st, in->set_up);
         for (int k = 0; k < s; ++k) in->newton.y[k*n + i] = in->set_up[k];
     }
@@ -6010,7 +6016,7 @@ static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
         return;
     }
     gvi__newton_modes(st, in->last.V, in->work.V);
-    if (gvi__held(st) > 0) gvi__held_guess(st, y + st->s*st->n);
+    if (gvi__con_unknowns(st) > 0) gvi__con_guess(st, y + st->s*st->n);
 }
 
 /* y += dy from row k0 on; returns the sum of the coordinates' relative changes, to p->each as well;
@@ -6064,7 +6070,7 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
     if ((noise <= place && sure) || solved) p->work = -1;
     p->each = sum;
     p->grain = GVI__EPS;
-    if (gvi__held(st) == 0 || !(length > none)) return sum;
+    if (gvi__con_unknowns(st) == 0 || !(length > none)) return sum;
     if (largest > h*length) p->grain *= largest/(h*length);
     return all/length;
 }
@@ -6079,9 +6085,9 @@ static void gvi__newton_note(gvi_stepper *st, gvi__descent *p, gvi_real change, 
         st->counters.worst_contraction = gvi__larger(contraction, st->counters.worst_contraction);
     }
 
-    const int stagnant = before > 0 && change > p->least/2, rests = p->left < GVI__MAX;
+    const int stagnant = before > 0 && change > p->least/2, at_floor = p->left < GVI__MAX;
     p->stagnant = stagnant ? p->stagnant + 1 : 0;
-    if (before > 0 && !stagnant && !rests && (sure || change < p->rho*p->least))
+    if (before > 0 && !stagnant && !at_floor && (sure || change < p->rho*p->least))
         p->rho = change/p->least;
     p->least = gvi__smaller(change, p->least);
 
@@ -6093,7 +6099,7 @@ static void gvi__newton_note(gvi_stepper *st, gvi__descent *p, gvi_real change, 
    shrink; and if it does not, though small, with a matrix that is new or has contracted here: an
    older one can repeat any change.  What is left of the error, p->left, was no more than the change
    before times the contraction then, and shrinks on by that.                                  */
-static int gvi__newton_rests(gvi__descent *p, gvi_real change, gvi_real noise)
+static int gvi__newton_at_floor(gvi__descent *p, gvi_real change, gvi_real noise)
 {
     const gvi_real quarter = GVI__CONTRACTS, rho = gvi__smaller(p->rho, quarter);
     const int fresh = p->fresh & 1, contracts = p->rho < quarter, still = p->stagnant > 0;
@@ -6123,14 +6129,14 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
     if (p->before > 0) ratio = change/gvi__smaller(p->before, all);
     if (p->earlier > 0) other = p->before/gvi__smaller(p->earlier, all);
     gvi__newton_note(st, p, change, noise);
-    const int rests = gvi__newton_rests(p, change, noise), contracts = p->rho < quarter;
+    const int at_floor = gvi__newton_at_floor(p, change, noise), contracts = p->rho < quarter;
 
     const int confirmed = (p->fresh & 1 && p->holds) || change <= noise || change*other <= enough;
     const int done = (p->each*ratio <= enough && confirmed) || p->left <= enough;
     if (done && (p->holds || contracts)) return GVI__DONE;
 
     // rounding by a matrix that has contracted here asks for no other
-    if (!rests && !(p->work < 0 && contracts) && p->before > 0 && ratio > quarter) p->have = 0;
+    if (!at_floor && !(p->work < 0 && contracts) && p->before > 0 && ratio > quarter) p->have = 0;
     p->earlier = p->before;
     p->before = change;
     return GVI__GO_ON;
@@ -6143,8 +6149,8 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
 static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p, gvi_real norm)
 {
     enum { HALVES = GVI__NEARER };
-    const int rests = p->left < GVI__MAX, fresh = p->fresh & 1;
-    if (J->halves && p->halves >= 0 && p->halves <= HALVES && !(norm < p->norm) && !rests
+    const int at_floor = p->left < GVI__MAX, fresh = p->fresh & 1;
+    if (J->halves && p->halves >= 0 && p->halves <= HALVES && !(norm < p->norm) && !at_floor
         && p->before > GVI_SQRT(GVI__EPS)) {
         gvi_real *y = st->in.newton.y, *last = st->in.newton.last;
         const gvi_real part = !fresh               ? 0
@@ -6159,7 +6165,7 @@ static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent
     }
 
     if (p->halves > 0) p->have = 0;                // another place: another matrix
-    if (rests && norm/16 > p->norm) {
+    if (at_floor && norm/16 > p->norm) {
         p->before = 0;
         p->least = p->left = GVI__MAX;
         p->rho = GVI__CONTRACTS;
@@ -6182,7 +6188,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
     };
     p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);
     in->newton.bend = 0;
-    if (gvi__held(st) > 0) gvi__held_start(st);
+    if (gvi__con_unknowns(st) > 0) gvi__con_start(st);
     for (int k = 0, made = 0, verdict = GVI__GO_ON; k <= in->desc.max_iterations; ++k) {
         gvi_status status = gvi__newton_values(st, from);
         // one more evaluation, then done
@@ -6246,10 +6252,10 @@ static void gvi__newton_shorten(gvi_stepper *st, gvi_real part, const gvi_real *
 
 /* How far is y from `other`? The largest distance of a coordinate, in units of its own size there
    and at h, but no less than 1/64 of the largest, each times sqrt(M_ii).                     */
-static gvi_real gvi__newton_apart(const gvi_stepper *st, const gvi_real *other)
+static gvi_real gvi__newton_distance(const gvi_stepper *st, const gvi_real *other)
 {
     const struct gvi__private *in = &st->in;
-    gvi_real apart = 0, most = 0, *moved = in->answer, *size = moved + st->n;
+    gvi_real distance = 0, most = 0, *moved = in->answer, *size = moved + st->n;
     for (int i = 0; i < st->n; ++i) {
         moved[i] = size[i] = 0;
         for (int k = i; k < st->s*st->n; k += st->n) {
@@ -6261,8 +6267,8 @@ static gvi_real gvi__newton_apart(const gvi_stepper *st, const gvi_real *other)
 
     if (!(most > 0)) return 0;
     for (int i = 0; i < st->n; ++i)
-        if (!(moved[i]/(size[i] + most/64) <= apart)) apart = moved[i]/(size[i] + most/64);
-    return apart;
+        if (!(moved[i]/(size[i] + most/64) <= distance)) distance = moved[i]/(size[i] + most/64);
+    return distance;
 }
 
 /* Is the solution y the motion's, the one that free motion turns into as h grows from 0? It is
@@ -6295,9 +6301,9 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
         gvi__newton_points(st, from, h*(part*factor));
         const int found =
             gvi__newton_solve(st, from, &K) == GVI_OK && gvi__orientation(&K, all) == sign;
-        const gvi_real apart = found ? gvi__newton_apart(st, newton->guess) : 1,
+        const gvi_real distance = found ? gvi__newton_distance(st, newton->guess) : 1,
                        within = gvi__larger(close, newton->noise);
-        if (!found || !(apart <= within)) {
+        if (!found || !(distance <= within)) {
             factor = GVI_SQRT(factor);
             if (factor > (gvi_real)0.9998) right = 0;
             continue;
@@ -6307,13 +6313,13 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
         for (size_t k = 0; k < modes; ++k)
             newton->slope[k] += (newton->y[k] - newton->guess[k])/(1 - factor);
         if (factor > (gvi_real)0.5) {
-            if (apart < within/4) factor *= factor;
+            if (distance < within/4) factor *= factor;
             continue;
         }
         gvi__newton_guess(st, 0);
         const int other = gvi__newton_solve(st, from, &K) == GVI_OK;
         if ((other && newton->bend <= close) || part < 1/(gvi_real)GVI__SHORT)
-            right = !other || gvi__newton_apart(st, newton->branch) <= within;
+            right = !other || gvi__newton_distance(st, newton->branch) <= within;
     }
 
     gvi__newton_points(st, from, h);
@@ -6338,7 +6344,7 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
     gvi_real *v = in->answer + 2*st->n;
     gvi_status status = GVI_OK;
     gvi__velocity_guess(st, v);
-    if (gvi__held(st) > 0) status = gvi__held_begin(st, from, v);
+    if (gvi__con_unknowns(st) > 0) status = gvi__con_begin(st, from, v);
     if (status != GVI_OK) return status;
     for (;;) {
         gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
@@ -6354,7 +6360,7 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
         status = gvi__newton_connected(st, from, &J);
     }
 
-    if (status == GVI_OK && gvi__held(st) > 0) status = gvi__held_end(st);
+    if (status == GVI_OK && gvi__con_unknowns(st) > 0) status = gvi__con_end(st);
     if (status != GVI_OK) return status;
 
     // it made none to go on from
@@ -6366,7 +6372,7 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
     }
 
     gvi__sum_rows(st, in->work.F, from->p_low, in->step.p, in->step.p_low);
-    if (gvi__held(st) > 0) gvi__held_impulse(st);
+    if (gvi__con_unknowns(st) > 0) gvi__con_impulse(st);
     return GVI_OK;
 }
 
@@ -6376,20 +6382,20 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
    s n <= 1024.  Under constraints a step mostly fails because rows turn far in it, and a shorter
    one has no need of Newton: there LU, (s (n + m))^3/3, may cost as much as halving h four times,
    16 steps of 60 iterations of s^2 n.                                                          */
-GVI__COLD int gvi__newton_follows(const struct gvi__private *in, int held)
+GVI__COLD int gvi__newton_follows(const struct gvi__private *in, int m)
 {
     const gvi_desc *d = &in->desc;
-    const gvi_real n = (gvi_real)d->n, all = n + (gvi_real)held;
+    const gvi_real n = (gvi_real)d->n, all = n + (gvi_real)m;
     if (d->formulation != GVI_AUTO || in->stages == 0 || in->chosen == GVI_NEWTON) return 0;
     if (d->iterations > 0 || gvi__of_kind(in, GVI_CLOCK) || d->degree > 1024/d->n) return 0;
-    return held == 0 || (gvi_real)d->degree*(all*all*all) <= 3*16*60*n;
+    return m == 0 || (gvi_real)d->degree*(all*all*all) <= 3*16*60*n;
 }
 
-GVI__COLD void gvi__newton_layout(struct gvi__private *in, int held, gvi__arena *a)
+GVI__COLD void gvi__newton_layout(struct gvi__private *in, int m, gvi__arena *a)
 {
     struct gvi__newton *newton = &in->newton;
     const size_t n = (size_t)in->desc.n, s = (size_t)in->desc.degree,
-                 R = (size_t)GVI__ROW(in->desc.rule.points), sm = s*(size_t)held, N = s*n + sm;
+                 R = (size_t)GVI__ROW(in->desc.rule.points), sm = s*(size_t)m, N = s*n + sm;
     gvi_real **const unknowns[] = {
         &newton->y, &newton->dy, &newton->residual, &newton->last,
         &newton->found, &newton->branch, &newton->guess, &newton->slope
@@ -6459,7 +6465,7 @@ static gvi_status gvi__newton_turn(gvi_stepper *st, const gvi__origin *from, gvi
 {
     if (!query) {
         st->in.newton.next_left = 0;
-        if (status == GVI_E_CONVERGENCE || gvi__held(st) > 0)
+        if (status == GVI_E_CONVERGENCE || gvi__con_unknowns(st) > 0)
             st->in.newton.next_left = GVI__BY_NEWTON - 1;
         st->in.parts |= GVI__IN_NEWTON;
     }
@@ -6578,13 +6584,13 @@ static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, c
         const int failed = effect->points(&at, effect->user);
         if (failed) return gvi__report_callback(st, failed, e);
         if (GVI__LOOKS(st)) {
-            gvi_points rows = at;
-            rows.n = effect->rows;
-            status = gvi__check_rows(st, &rows, at.g, e);
-            if (status == GVI_OK) status = gvi__check_rows(st, &rows, at.rate, e);
+            gvi_points points = at;
+            points.n = effect->rows;
+            status = gvi__check_rows(st, &points, at.g, e);
+            if (status == GVI_OK) status = gvi__check_rows(st, &points, at.rate, e);
             if (status != GVI_OK) return status;
-            rows.n *= st->n;
-            status = gvi__check_rows(st, &rows, at.jacobian, e);
+            points.n *= st->n;
+            status = gvi__check_rows(st, &points, at.jacobian, e);
             if (status != GVI_OK) {
                 st->fault.coordinate /= st->n;
                 return status;
@@ -6693,33 +6699,33 @@ GVI__COLD int gvi__spare(const gvi_stepper *st, int S, int i, gvi_real entry, co
     return spare;
 }
 
-/* Column i of D L': G_j M^-1 G_i', less what the rows before j make of it, for j up to i.  W, here
-   - M^-1 G_i', is 0 before and behind.                                                        */
+/* Column i of D L': G_j M^-1 G_i', less what the rows before j make of it, for j up to i.  scratch,
+   here - M^-1 G_i', is 0 before and behind.                                                   */
 static void gvi__gram_column(const gvi_stepper *st, int S, int count, const gvi_real *G,
                              gvi_real *A, int i)
 {
     const struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, full = gvi__full_mass(in), from = (int)in->con.first[i];
-    gvi_real *W = in->con.W;
+    gvi_real *scratch = in->con.scratch;
 
     for (int j = gvi__column(st, i, 0); j < n; j = gvi__column(st, i, j + 1)) {
         const gvi_real *g = G + (i*n + j)*S, inverse = full ? 1 : in->mass.inverse[j];
-        for (int k = 0; k < count; ++k) W[j*S + k] = -(g[k]*inverse);
+        for (int k = 0; k < count; ++k) scratch[j*S + k] = -(g[k]*inverse);
     }
-    if (full) gvi__over_inertia(st, W, S, count);
+    if (full) gvi__over_inertia(st, scratch, S, count);
     for (int j = from; j <= i; ++j) {
         gvi_real *u = A + (j*m + i)*S;
         for (int k = 0; k < count; ++k) u[k] = 0;
         for (int l = gvi__column(st, j, 0); l < n; l = gvi__column(st, j, l + 1))
-            gvi__subtract_at(S, count, G + (j*n + l)*S, W + l*S, u);
+            gvi__subtract_at(S, count, G + (j*n + l)*S, scratch + l*S, u);
         if (j == i) break;
         int l = (int)in->con.first[j];
         if (l < from) l = from;
         for (; l < j; ++l) gvi__subtract_at(S, count, A + (j*m + l)*S, A + (l*m + i)*S, u);
     }
-    if (full) gvi__zero((size_t)(n*S), W);
+    if (full) gvi__zero((size_t)(n*S), scratch);
     for (int j = gvi__column(st, i, 0); j < n; j = gvi__column(st, i, j + 1))
-        for (int k = 0; k < count; ++k) W[j*S + k] = 0;
+        for (int k = 0; k < count; ++k) scratch[j*S + k] = 0;
 }
 
 /* Row i of L and its pivot at point k.  Does the row depend?  A pivot of 64 m roundings, its own
@@ -6751,7 +6757,7 @@ static gvi_status gvi__factor_rows(gvi_stepper *st, int S, int count, const gvi_
                                    gvi_real *A, gvi_real *drops)
 {
     const int m = st->in.con.m;
-    gvi__zero((size_t)(st->n*S), st->in.con.W);
+    gvi__zero((size_t)(st->n*S), st->in.con.scratch);
     gvi__zero((size_t)(count == 1 ? m : 0), drops);
     for (int i = 0; i < m; ++i) {
         int spare = i;
@@ -6872,13 +6878,13 @@ GVI__CALLED void gvi__constraint_stages(gvi_stepper *st, const gvi__origin *from
                       in->con.d + 1, in->con.free + i*R);
 }
 
-// rows := sum over sources and their weights, or added to what is there
+// values := sum over sources and their weights, or added to what is there
 static void gvi__weighted_sums(const gvi_stepper *st, const gvi_real *table, const gvi_real *weight,
-                               const gvi_real *source, gvi_real *scratch, gvi_real *rows, int add)
+                               const gvi_real *source, gvi_real *scratch, gvi_real *values, int add)
 {
     const int R = st->in.R;
     for (int i = 0; i < st->n; ++i) gvi__weigh(R, weight, source + i*R, scratch + i*R);
-    gvi__sums(st, table, scratch, rows, add);
+    gvi__sums(st, table, scratch, values, add);
 }
 
 // D, from what makes Q
@@ -6928,14 +6934,14 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C;
     const int linear = in->con.linear, rows = st->formulation != GVI_NEWTON ? m : 0;
-    const gvi_real *G = in->con.G + 1, *moved = in->con.W;
+    const gvi_real *G = in->con.G + 1, *moved = in->con.scratch;
     gvi_real *along = in->con.rho + m*R;
 
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < C; ++k) {
             gvi_real *at = in->con.at + i*C + k;
             const gvi_real D = from->q[i] + (k > 0 && k <= s ? in->con.D[i*R + k - 1] : 0);
-            if (k > 0) in->con.W[i*C + k - 1] = *at - D;
+            if (k > 0) in->con.scratch[i*C + k - 1] = *at - D;
             *at = D;
         }
     gvi__zero((size_t)(m*C), along);              // by the old G
@@ -7003,7 +7009,7 @@ static void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const gvi_r
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C;
-    gvi_real *lambda = in->con.force + n*R, *rho = in->con.rho, *moved = in->con.W;
+    gvi_real *lambda = in->con.force + n*R, *rho = in->con.rho, *moved = in->con.scratch;
 
     gvi__constraint_forces(st);
     const gvi_real *source =
@@ -7115,20 +7121,20 @@ GVI__CALLED int gvi__a_row_falls(const gvi_stepper *st)
 /* What constraints add to the floor of coordinate i, whatever its amplitude, as a length: h^2/m
    times eps of the forces of its rows; and for `moves`, their last change where that came from the
    rounding of g, which nearly dependent rows make large.                                      */
-static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m,
+static gvi_real gvi__place_floor(const gvi_stepper *st, gvi_real h, int i, gvi_real m,
                                 gvi_real eps, int moves)
 {
     const struct gvi__private *in = &st->in;
-    gvi_real push = 0;
+    gvi_real most = 0;
     if (!gvi__constrained(st)) return 0;
     if (i == 0) gvi__force_sizes(st, in->con.force + st->n*in->R, in->R, in->con.plus);
-    if (i == 0 && moves) gvi__constraints_moved(st, in->con.W);
+    if (i == 0 && moves) gvi__constraints_moved(st, in->con.scratch);
     for (int e = 0; e < st->s; ++e) {
         gvi_real force = eps*GVI_ABS(h*in->con.plus[i*in->R + e]);
-        if (moves) force += in->con.W[i*in->con.C + e]/GVI_ABS(in->con.hw[e]);
-        push = gvi__larger(GVI_ABS(h)*force/m, push);
+        if (moves) force += in->con.scratch[i*in->con.C + e]/GVI_ABS(in->con.hw[e]);
+        most = gvi__larger(GVI_ABS(h)*force/m, most);
     }
-    return push;
+    return most;
 }
 
 // dp of the forces of constraint
@@ -7148,8 +7154,8 @@ GVI__CALLED gvi__two gvi__moment(int count, const gvi_real *c, const gvi_real *w
 {
     gvi__two sum = gvi__two_of(0, 0);
     for (int j = 0; j < count; ++j) {
-        const gvi__two push = gvi__two_prod(w[j], F[j]), z = gvi__two_prod(1 - c[j], push.hi);
-        sum = gvi__add_low(sum.hi, sum.lo, z.hi, z.lo + (1 - c[j])*push.lo);
+        const gvi__two term = gvi__two_prod(w[j], F[j]), z = gvi__two_prod(1 - c[j], term.hi);
+        sum = gvi__add_low(sum.hi, sum.lo, z.hi, z.lo + (1 - c[j])*term.lo);
     }
     return sum;
 }
@@ -7165,16 +7171,16 @@ static gvi_real gvi__place_bow(const gvi_stepper *st, int i)
 
 #ifndef GVI_NO_KICKS
 // path += h M^-1 |G|'|z|: how far each impulse alone would move the coordinates, at one point
-static void gvi__add_path(const gvi_stepper *st, gvi_real h, const gvi_real *z, gvi_real *push,
+static void gvi__add_path(const gvi_stepper *st, gvi_real h, const gvi_real *z, gvi_real *impulse,
                           gvi_real *path)
 {
     const int n = st->n;
-    gvi__zero((size_t)n, push);
+    gvi__zero((size_t)n, impulse);
     for (int a = 0; a < st->in.con.m; ++a)
         for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
-            push[i] += GVI_ABS(z[a]*st->in.con.G1[a*n + i]);
-    gvi__over_mass(st, push, 1, 1);
-    for (int i = 0; i < n; ++i) path[i] += GVI_ABS(h*push[i]);
+            impulse[i] += GVI_ABS(z[a]*st->in.con.G1[a*n + i]);
+    gvi__over_mass(st, impulse, 1, 1);
+    for (int i = 0; i < n; ++i) path[i] += GVI_ABS(h*impulse[i]);
 }
 
 // the largest |g_a| in eps of its terms, the most so far, in `unit`; more than all where not finite
@@ -7196,7 +7202,7 @@ static void gvi__drift_move(gvi_stepper *st, const gvi__origin *from, gvi_real h
 {
     struct gvi__private *in = &st->in;
     const int n = st->n;
-    gvi_real *z = in->con.rho, *d = in->con.W;
+    gvi_real *z = in->con.rho, *d = in->con.scratch;
     for (int a = 0; a < in->con.m; ++a) z[a] = -in->con.g[a]/h;
     gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
     gvi__add_path(st, h, z, d, path);
@@ -7269,7 +7275,7 @@ GVI__COLD int gvi__doubtful(const gvi_stepper *st, const gvi_real *q, int a, gvi
 {
     const gvi_real dropped = st->in.con.drops[st->in.con.m + a];
     if (GVI_ABS(left) <= GVI__HELD*GVI__EPS*terms) return 0;
-    if (*amplitude < 0) *amplitude = gvi__amplitude(st, q, st->in.con.W);
+    if (*amplitude < 0) *amplitude = gvi__amplitude(st, q, st->in.con.scratch);
     const gvi_real entry = dropped > 0 ? dropped : gvi__entry(st, 1, a, st->in.con.gram1);
     return !(GVI_ABS(left) <= GVI__PLACE*GVI__EPS**amplitude*GVI_SQRT(GVI_ABS(entry)));
 }
@@ -7287,7 +7293,7 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
     const int n = st->n, m = in->con.m;
     const gvi_real *A = in->con.gram1;
     gvi_real *g = in->con.g, *was = in->con.rho, *doubt = was + m, *ahead = in->con.y,
-             *d = in->con.W, *next = d + n, *G = in->con.G1, amplitude = -1;
+             *d = in->con.scratch, *next = d + n, *G = in->con.G1, amplitude = -1;
     int off = -1, refused = -1;
 
     for (int a = 0; a < m; ++a) {
@@ -7376,7 +7382,7 @@ GVI__COLD int gvi__rates_are_rounding(gvi_stepper *st, gvi_real t, const gvi_rea
     const int n = st->n, m = st->in.con.m;
     const gvi_real root = GVI_SQRT(GVI__EPS), *rate = st->in.con.g + m;
     gvi_real *terms = st->in.con.rho + m, *was = terms + m, *G = st->in.con.G1,
-             *next = st->in.con.W;
+             *next = st->in.con.scratch;
     gvi_status status = GVI_OK;
     int within = 1;
 
@@ -7422,7 +7428,8 @@ static gvi_status gvi__check_end(gvi_stepper *st, gvi_real t, const gvi_real *q,
 
 /* step.p += G'z, y += z such that r = G v + dg/dt is 0 with the last G.  Returns r' A^-1 r, twice
    the kinetic energy in it, and in *row the one that has most of it.                          */
-static gvi_real gvi__project_momentum(gvi_stepper *st, const gvi_real *v, gvi_real *push, int *row)
+static gvi_real gvi__project_momentum(gvi_stepper *st, const gvi_real *v, gvi_real *impulse,
+                                      int *row)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
@@ -7437,10 +7444,10 @@ static gvi_real gvi__project_momentum(gvi_stepper *st, const gvi_real *v, gvi_re
         in->con.y[a] += z[a];
     }
 
-    gvi__zero((size_t)n, push);
-    gvi__add_force(st, z, push);
+    gvi__zero((size_t)n, impulse);
+    gvi__add_force(st, z, impulse);
     for (int i = 0; i < n; ++i) {
-        const gvi__two sum = gvi__add_low(in->step.p[i], in->step.p_low[i], push[i], 0);
+        const gvi__two sum = gvi__add_low(in->step.p[i], in->step.p_low[i], impulse[i], 0);
         in->step.p[i] = sum.hi;
         in->step.p_low[i] = sum.lo;
     }
@@ -7572,7 +7579,8 @@ GVI__COLD int gvi__wrong_derivative(gvi_stepper *st, gvi_real from_t, int i, gvi
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, next = i < n ? n : 1;
-    gvi_real *g = in->con.g, *G = in->con.G1, *at = in->con.W, *was = in->con.rho, *rate = was + m,
+    gvi_real *g = in->con.g, *G = in->con.G1, *at = in->con.scratch, *was = in->con.rho,
+             *rate = was + m,
              *mean = rate + m, *ahead = in->con.y, *turn = g + 2*m, now = from_t, off = 0,
              *moved = i < n ? at + i : &now;
     const gvi_real x = *moved, *from = at + n, *written = i < n ? G + i : rate,
@@ -7595,13 +7603,13 @@ GVI__COLD int gvi__wrong_derivative(gvi_stepper *st, gvi_real from_t, int i, gvi
             const gvi_real entry = written[a*next], back = (g[a] - was[a])/(*moved - x),
                 middle = ahead[a]/2 + back/2, miss = GVI_ABS(entry - middle),
                 bend = GVI_ABS(ahead[a] - back) + GVI_ABS(middle - mean[a]),
-                apart = gvi__larger(bend, turn[a]/2 + GVI_ABS(there[a*next] - entry)/2),
+                spread = gvi__larger(bend, turn[a]/2 + GVI_ABS(there[a*next] - entry)/2),
                 terms = gvi__terms(st, 1, from_t, from, G, rate, a) + GVI_ABS(was[a]),
                 noise = GVI__SOLVED*GVI__EPS*(terms/d),
                 none = (GVI_ABS(entry)/2 + GVI_ABS(middle)/2)/GVI__WRONG + noise;
             if (!(miss <= none)) agree = 0;
             if (a == wrong && miss <= none && noise < off/2) wrong = -1;
-            if (known && doubted < 0 && 64*apart < GVI_ABS(middle) && miss > none + 4*apart)
+            if (known && doubted < 0 && 64*spread < GVI_ABS(middle) && miss > none + 4*spread)
                 doubted = a;
             if (a == doubted && a == suspect && wrong < 0) {
                 wrong = a;
@@ -7625,7 +7633,8 @@ GVI__COLD gvi_status gvi__check_derivatives(gvi_stepper *st, gvi_real t, const g
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     const gvi_counters counters = st->counters;          // no step's work
-    gvi_real *g = in->con.g, *at = in->con.W, *from = at + n, *was = in->con.rho, *rate = was + m,
+    gvi_real *g = in->con.g, *at = in->con.scratch, *from = at + n, *was = in->con.rho,
+             *rate = was + m,
              largest = 0, from_t = t;
     const gvi_real root = GVI_SQRT(GVI_SQRT(GVI__EPS));
     const char *slip = NULL;
@@ -7710,8 +7719,8 @@ GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h)
 }
 
 // what the forces of constraint add to the last step's curve, made of forces
-static void gvi__place_held(const gvi_stepper *st, gvi_real tau, const gvi_real *phi,
-                            const gvi_real *Phi, gvi_real *q, gvi_real *v)
+static void gvi__place_reactions(const gvi_stepper *st, gvi_real tau, const gvi_real *phi,
+                                 const gvi_real *Phi, gvi_real *q, gvi_real *v)
 {
     const struct gvi__private *in = &st->in;
     if (in->stages != 1 || in->has_velocity || !in->con.kept) return;
@@ -7760,13 +7769,13 @@ GVI__OFFERED gvi_real gvi__high_constraint_mode(const gvi_stepper *st, int i, gv
 
 /* How far the rounding of g moves the coordinates: M^-1 G' A^-1 of what ends of steps were off by,
    or of eps of its known terms, once with one sign and once with signs that alternate, added.  To
-   con.W; NULL where nothing holds.  All is that of the end, which was projected last.         */
+   con.scratch; NULL where nothing holds.  All is that of the end, which was projected last.   */
 GVI__OFFERED const gvi_real *gvi__constraint_shift(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
     const gvi_effect *effects = in->desc.effects;
     const int n = st->n, m = in->con.m;
-    gvi_real *shift = in->con.W, *z = in->con.rho;
+    gvi_real *shift = in->con.scratch, *z = in->con.rho;
 
     if (!gvi__constrained(st)) return NULL;
     gvi_real *moved = shift + n;
@@ -7857,7 +7866,8 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
         { &con->by_impulse, i*r, R },
         { &con->X, i*s, R },
         { &con->E, i*s, R }, { &con->Phi, i*s, R }, { &con->Phi_low, i*s, R }, { &con->hw, on, R },
-        { &con->last, i*(n + m), C }, { &con->at, i*n, C }, { &con->t, i, C }, { &con->W, on*n, C },
+        { &con->last, i*(n + m), C }, { &con->at, i*n, C }, { &con->t, i, C },
+        { &con->scratch, on*n, C },
         { &con->g, 2*m, C }, { &con->G, i*m*n, C }, { &con->gram, i*m*m, C },
         { &con->d, on, R + C },
         { &con->w, on, s + 1 }, { &con->rho, m, R + C }, { &con->lu, i*(s + 1), s + 1 },
@@ -7986,7 +7996,7 @@ GVI__COLD gvi_status gvi__hold_rate(gvi_stepper *st, const gvi_real *v, const gv
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
-    gvi_real *force = in->con.W + n, *z = in->con.rho, *best = z + m, *before = best + m,
+    gvi_real *force = in->con.scratch + n, *z = in->con.rho, *best = z + m, *before = best + m,
              *sum = in->con.y, least = GVI__MAX, last = GVI__MAX;
     const gvi_real rounding = GVI__SOLVED*GVI__EPS;
     gvi_status status = GVI_OK;
@@ -8041,7 +8051,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
 
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
-    gvi_real *u = in->answer + 2*n, *v = in->con.W, *F = in->step.p, size = 0;
+    gvi_real *u = in->answer + 2*n, *v = in->con.scratch, *F = in->step.p, size = 0;
     const gvi_real *y = in->con.y;
     gvi_points at = gvi__one_point(st, &st->t, st->q);
     gvi__velocity_guess(st, u);
@@ -8139,8 +8149,9 @@ static gvi_real gvi__approach(gvi_stepper *st, const gvi_real *q, gvi_real share
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
-    gvi_real *e = in->step.q, *f = in->step.p, *next = in->answer, *d = next + n, *push = in->point,
-             *path = push + 2*n, *z = in->con.rho, *r = z + m, *back = r + m, change = 0;
+    gvi_real *e = in->step.q, *f = in->step.p, *next = in->answer, *d = next + n,
+             *impulse = in->point,
+             *path = impulse + 2*n, *z = in->con.rho, *r = z + m, *back = r + m, change = 0;
 
     for (int a = 0; a < m; ++a) {
         back[a] = -in->con.g[a];
@@ -8151,15 +8162,15 @@ static gvi_real gvi__approach(gvi_stepper *st, const gvi_real *q, gvi_real share
     *way = gvi__dot(m, r, z);
     for (int a = 0; a < m; ++a) z[a] = share*z[a] + (1 - share)*back[a];
 
-    gvi__zero((size_t)n, push);
-    gvi__add_force(st, z, push);
-    gvi__copy((size_t)n, push, d);
+    gvi__zero((size_t)n, impulse);
+    gvi__add_force(st, z, impulse);
+    gvi__copy((size_t)n, impulse, d);
     gvi__over_inertia(st, d, 1, 1);
     *size = 0;
     for (int i = 0; i < n; ++i) {
-        change += (GVI_ABS(push[i]) + GVI_ABS(f[i]))*GVI_ABS(d[i] - share*e[i]);
-        *size += (GVI_ABS(push[i]) + GVI_ABS(f[i]))*(GVI_ABS(d[i]) + GVI_ABS(e[i]));
-        f[i] = push[i] + (1 - share)*f[i];
+        change += (GVI_ABS(impulse[i]) + GVI_ABS(f[i]))*GVI_ABS(d[i] - share*e[i]);
+        *size += (GVI_ABS(impulse[i]) + GVI_ABS(f[i]))*(GVI_ABS(d[i]) + GVI_ABS(e[i]));
+        f[i] = impulse[i] + (1 - share)*f[i];
         e[i] = d[i] + (1 - share)*e[i];
         next[i] = gvi__arrived(st, q[i], e[i]);
         path[i] = GVI_ABS(q[i]) + GVI_ABS(e[i]);
@@ -8347,20 +8358,20 @@ GVI__COLD void gvi__rolling_layout(struct gvi__private *in, gvi__arena *a)
    Unknown y[s*n + e*m + a] is -lambda_a at D_e, e = 0..s-1, and the rows behind those of (1) are
    -g_a at D_(e+1).  So signed, the determinant of free motion is positive.                    */
 
-static size_t gvi__held(const gvi_stepper *st)
+static size_t gvi__con_unknowns(const gvi_stepper *st)
 {
     return gvi__constrained(st) ? (size_t)st->s*(size_t)st->in.con.m : 0;
 }
 
-static int gvi__held_rows(const struct gvi__private *in)
+static int gvi__con_rows(const struct gvi__private *in)
 {
     return gvi__count_rows(in, in->con.bits);
 }
 
-static void gvi__held_start(gvi_stepper *st) { st->in.con.made = 0; }
+static void gvi__con_start(gvi_stepper *st) { st->in.con.made = 0; }
 
 // g and G at the D that y makes, and the forces of its multipliers
-GVI__CALLED gvi_status gvi__held_values(gvi_stepper *st, const gvi__origin *from)
+GVI__CALLED gvi_status gvi__con_values(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, s = st->s, R = in->R;
@@ -8379,19 +8390,19 @@ GVI__CALLED gvi_status gvi__held_values(gvi_stepper *st, const gvi__origin *from
     return status;
 }
 
-static void gvi__held_force(const gvi_stepper *st, int i, int k, gvi_real *force, gvi_real *size)
+static void gvi__con_force(const gvi_stepper *st, int i, int k, gvi_real *force, gvi_real *size)
 {
     const struct gvi__private *in = &st->in;
     const int R = in->R;
     for (int e = 0; e < st->s; ++e) {
-        const gvi_real W = (k == 0 ? 1 : 0) - (e > 0 ? in->con.Phi[k*R + e - 1] : 0);
-        *force += W*(in->con.hw[e]*in->con.force[i*R + e]);
-        *size += GVI_ABS(W*(in->con.hw[e]*in->con.D[i*R + e]));
+        const gvi_real w = (k == 0 ? 1 : 0) - (e > 0 ? in->con.Phi[k*R + e - 1] : 0);
+        *force += w*(in->con.hw[e]*in->con.force[i*R + e]);
+        *size += GVI_ABS(w*(in->con.hw[e]*in->con.D[i*R + e]));
     }
 }
 
 // g, as the momentum that would undo it: its norm, what has moved of it, and what was there
-static gvi_real gvi__held_residual(gvi_stepper *st, gvi__descent *p, gvi_real *moved,
+static gvi_real gvi__con_residual(gvi_stepper *st, gvi__descent *p, gvi_real *moved,
                                    gvi_real *before)
 {
     const struct gvi__private *in = &st->in;
@@ -8423,7 +8434,7 @@ static gvi_real gvi__held_residual(gvi_stepper *st, gvi__descent *p, gvi_real *m
 }
 
 // multipliers, constraints, and by differences of G the forces G' lambda, which move with D
-GVI__CALLED gvi_status gvi__held_matrix(gvi_stepper *st, const gvi__matrix *J)
+GVI__CALLED gvi_status gvi__con_matrix(gvi_stepper *st, const gvi__matrix *J)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C, moves = s > 1 ? n : 0;
@@ -8443,9 +8454,9 @@ GVI__CALLED gvi_status gvi__held_matrix(gvi_stepper *st, const gvi__matrix *J)
         for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
             for (int k = 0; k < s; ++k) {
                 const gvi_real *G = in->con.G + (a*n + i)*C + e,
-                    W = (k == 0 ? 1 : 0) - (e > 0 ? Phi[k*R + e - 1] : 0);
+                    w = (k == 0 ? 1 : 0) - (e > 0 ? Phi[k*R + e - 1] : 0);
                 const size_t y = (size_t)(k*n + i);
-                J->square[y*size + z] = (gvi_real)(2*k + 1)*W*(in->con.hw[e]*G[0]);
+                J->square[y*size + z] = (gvi_real)(2*k + 1)*w*(in->con.hw[e]*G[0]);
                 J->square[z*size + y] = -h*Phi[k*R + e]*G[1];
             }
     }
@@ -8462,9 +8473,9 @@ GVI__CALLED gvi_status gvi__held_matrix(gvi_stepper *st, const gvi__matrix *J)
                 d = in->con.hw[e]*(force[i*R + e] - base[i*R + e])/(row[e] - was[e]);
                 for (int kl = 0; kl < s*s; ++kl) {
                     const int k = kl/s, l = kl % s;
-                    const gvi_real W = (k == 0 ? 1 : 0) - Phi[k*R + e - 1];
+                    const gvi_real w = (k == 0 ? 1 : 0) - Phi[k*R + e - 1];
                     J->square[(size_t)(k*n + i)*size + (size_t)(l*n + j)] -=
-                        (gvi_real)(2*k + 1)*W*d*(h*Phi[l*R + e - 1]);
+                        (gvi_real)(2*k + 1)*w*d*(h*Phi[l*R + e - 1]);
                 }
             }
         gvi__copy((size_t)C, was, row);
@@ -8475,13 +8486,13 @@ GVI__CALLED gvi_status gvi__held_matrix(gvi_stepper *st, const gvi__matrix *J)
     return status;
 }
 
-static gvi_status gvi__held_report(gvi_stepper *st, gvi_status status, int at)
+static gvi_status gvi__con_report(gvi_stepper *st, gvi_status status, int at)
 {
     return gvi__report_row(st, status, at % st->in.con.m, GVI_FAULT_NONE);
 }
 
 // multipliers, extrapolated
-static void gvi__held_guess(const gvi_stepper *st, gvi_real *y)
+static void gvi__con_guess(const gvi_stepper *st, gvi_real *y)
 {
     const struct gvi__private *in = &st->in;
     gvi__predict_constraints(st, 1);
@@ -8490,7 +8501,7 @@ static void gvi__held_guess(const gvi_stepper *st, gvi_real *y)
 }
 
 // which rows depend on others at the start?
-static gvi_status gvi__held_begin(gvi_stepper *st, const gvi__origin *from, gvi_real *v)
+static gvi_status gvi__con_begin(gvi_stepper *st, const gvi__origin *from, gvi_real *v)
 {
     return gvi__constraints_at(st, from->t, from->q, NULL, v, st->in.con.drops);
 }
@@ -8510,7 +8521,7 @@ GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int row, int point)
    c G, c the row of L^-1: where that is a small part of row j at a point, has it turned by more
    than 25 degrees at the next, or almost vanished?  It passes 0 where the motion branches,
    and has another direction on each branch: the step must not choose.                        */
-GVI__CALLED gvi_status gvi__held_end(gvi_stepper *st)
+GVI__CALLED gvi_status gvi__con_end(gvi_stepper *st)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, C = in->con.C;
@@ -8548,7 +8559,7 @@ GVI__CALLED gvi_status gvi__held_end(gvi_stepper *st)
     return GVI_OK;
 }
 
-static void gvi__held_impulse(gvi_stepper *st) { gvi__constraint_momenta(st); }
+static void gvi__con_impulse(gvi_stepper *st) { gvi__constraint_momenta(st); }
 #endif
 
 #ifndef GVI_NO_RULES
@@ -8795,18 +8806,18 @@ static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real 
                    p = GVI_ABS(in->state.p[i]), dp = GVI_ABS(in->step.p[i]),
                    first = row[0], last = row[st->r - 1];
     gvi_real terms = GVI_ABS(first) + GVI_ABS(last), change = GVI_ABS(last - first),
-             apart = GVI_ABS(in->state.q[i])/all;
+             reach = GVI_ABS(in->state.q[i])/all;
     if (forces) {
         terms *= h;
         change *= h;
-        apart *= inertia;
+        reach *= inertia;
     } else {
         terms += (2*p + dp)/inertia;
         change += dp/inertia;
     }
 
-    apart = (GVI_ABS(st->t) + apart)/h;
-    return high <= 4*GVI__EPS*terms || (low <= 4*high && high <= 4*GVI__EPS*change*apart);
+    reach = (GVI_ABS(st->t) + reach)/h;
+    return high <= 4*GVI__EPS*terms || (low <= 4*high && high <= 4*GVI__EPS*change*reach);
 }
 
 /* Mode K of coordinate i by the change of mode K - 1 since the step before; *was: its size there,
@@ -8928,11 +8939,11 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
     if (!(whole > 0)) return 0;
     for (int i = 0; i < st->n; ++i) {
         const gvi_real around = gvi__smaller(mass[i]*(v + GVI_ABS(in->state.q[i])/h), whole);
-        const int rests = size[i] < around/GVI__RESTS;
+        const int at_rest = size[i] < around/GVI__AT_REST;
 
         // what rounding makes of it: of g, of forces that cancel, of those of constraint anywhere
         gvi_real rounding = shift ? mass[i]*shift[i]/h : 0;
-        if (rests || (shift && forces))
+        if (at_rest || (shift && forces))
             rounding = gvi__larger(GVI__EPS*(shift ? whole : around), rounding);
         if (missed[i] <= GVI__PULLED*rounding) missed[i] *= GVI__EPS*GVI__EPS;
         worst = gvi__larger(missed[i]/size[i], worst);
@@ -8991,7 +9002,7 @@ static gvi_real gvi__coarse_resolution(const gvi_stepper *st)
     }
 
     const gvi_real whole = GVI_SQRT(size) + GVI_SQRT(far)/h;
-    if (size*GVI__RESTS*GVI__RESTS < whole*whole) floor += GVI__EPS*GVI__EPS*whole*whole;
+    if (size*GVI__AT_REST*GVI__AT_REST < whole*whole) floor += GVI__EPS*GVI__EPS*whole*whole;
     if (!(began > 0) || high <= GVI__SOLVED*GVI__SOLVED*floor) return 0;
     return 10*GVI_SQRT(high/size);
 }
@@ -9485,7 +9496,7 @@ GVI__COLD gvi_status gvi__check_boundary(gvi_stepper *st, gvi_real t, gvi_real h
         return gvi__refuse_call(st, "t, q0, q1 or the guess is not finite");
     if (!gvi__finite(h) || !gvi__nonzero(h))
         return gvi__refuse_call(st, "h is 0, NaN or infinite");
-    if (in->apart) {                               // constraints, a clock
+    if (in->separate) {                            // constraints, a clock
         gvi__report_status(st, GVI_E_FORMULATION);
         gvi__unsolved(in, &st->fault);
         return gvi__done(st, GVI_E_FORMULATION);
@@ -9583,18 +9594,18 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
    effect returns; what is wrong already at its start is kept apart from what a shorter step may
    mend; and a first start probes the callbacks.                                               */
 
-/* All points of a step at one state, at rows [n][R] for f and, behind them, dldv; of kicks one.  */
+/* All points of a step at one state, values [n][R] of f and, behind them, dldv; of kicks one. */
 GVI__COLD gvi_points gvi__all_points_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                         const gvi_real *v)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n;
     int R = in->R, count = st->r;
-    gvi_real *rows = in->work.F;
+    gvi_real *values = in->work.F;
 
     if (!gvi__has_curve(st)) R = count = 1;
-    if (in->free.rows) rows = in->free.rows;
-    gvi_points at = gvi__points_at(st, count, R, in->t, in->work.Q, rows, rows + n*R);
+    if (in->free.values) values = in->free.values;
+    gvi_points at = gvi__points_at(st, count, R, in->t, in->work.Q, values, values + n*R);
     at.v = in->work.V;
     for (int k = 0; k < R; ++k) in->t[k] = t;
     for (int i = 0; i < n*R; ++i) {
@@ -9644,7 +9655,7 @@ static gvi_status gvi__explain_effects(gvi_stepper *st, gvi_points *at, unsigned
     for (int kind = 0; value && kind <= GVI_LAGRANGIAN; ++kind)
         finite &= !value[kind] || gvi__first_non_finite(at->count, value[kind]) < 0;
     if (finite) return gvi__report_status(st, GVI_OK);
-    return gvi__diagnose(st, at, skip | st->in.off | st->in.apart, value);
+    return gvi__diagnose(st, at, skip | st->in.off | st->in.separate, value);
 }
 
 /* Why did a step fail?  What is singular, NaN or infinite already where it starts is reported as
@@ -9715,7 +9726,7 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
     const gvi_counters counters = st->counters;          // a probe is no step's work
     gvi_points at = gvi__all_points_at(st, t, q, v);
     const int n = st->n, R = at.stride, count = at.count;
-    gvi_real *rows = at.f, *past = in->answer + 2*n;
+    gvi_real *values = at.f, *past = in->answer + 2*n;
 
     for (int i = 0; i < n; ++i) past[i] = q[i] + GVI_SQRT(GVI__EPS)*v[i];
     for (int i = 0; i < n*R; ++i)
@@ -9726,9 +9737,9 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
     for (int e = 0; e < in->desc.effect_count; ++e) {
         int all = n*R, unlike = 0, huge = 0, set = 0;
         gvi_real largest = 0;
-        if ((in->off | in->apart) >> e & 1u) continue;
+        if ((in->off | in->separate) >> e & 1u) continue;
         if (in->desc.effects[e].kind == GVI_LAGRANGIAN) all = 2*n*R;
-        gvi__zero((size_t)all, rows);
+        gvi__zero((size_t)all, values);
         // effects may use what M(q) has computed: it comes first, as in a step
         const int varies = in->desc.mass.kind == GVI_MASS_POSITION;
         if (varies) (void)gvi__evaluate_mass(st, &one, NULL, NULL);
@@ -9760,19 +9771,19 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
         if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
         for (int i = 0; i < all; ++i)
             if (i % R < count) {
-                largest = gvi__larger(GVI_ABS(rows[i]), largest);
+                largest = gvi__larger(GVI_ABS(values[i]), largest);
                 largest = gvi__larger(GVI_ABS(one.f[i/R]), largest);
             }
         huge = largest > GVI__MAX/4;
         for (int i = 0; i < all; ++i)
-            unlike |= i % R < count && GVI_ABS(rows[i] - one.f[i/R]) > largest/GVI__SURE;
+            unlike |= i % R < count && GVI_ABS(values[i] - one.f[i/R]) > largest/GVI__SURE;
         if (unlike && known)
             slip = "effect: fills not all points: coordinate i of point k < x->count is at "
                    "[i*x->stride + k]";
 
-        for (int i = 0; i < all; ++i) rows[i] = GVI__MAX;
+        for (int i = 0; i < all; ++i) values[i] = GVI__MAX;
         if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
-        for (int i = 0; i < all; ++i) set |= i % R < count && GVI_ABS(rows[i]) < GVI__MAX/2;
+        for (int i = 0; i < all; ++i) set |= i % R < count && GVI_ABS(values[i]) < GVI__MAX/2;
         if (set && !huge) slip = "effect: sets f or dldv with =, where it has to add with +=";
         if (!slip) continue;
         st->counters = counters;
@@ -9956,7 +9967,7 @@ GVI__COLD int gvi__place_effect(struct gvi__private *in, int e, const char **wro
     if (kind == GVI_CLOCK) {
         *wrong = gvi__wrong_in_clock(in, e);
         in->parts |= GVI__IN_CLOCK;
-        in->apart |= 1u << e;
+        in->separate |= 1u << e;
         in->time.effect = e;
         return 1;
     }
@@ -9965,7 +9976,7 @@ GVI__COLD int gvi__place_effect(struct gvi__private *in, int e, const char **wro
     if (kind >= GVI_CONSTRAINT) {
         *wrong = gvi__wrong_in_constraint(in, e);
         in->parts |= GVI__IN_CONSTRAINTS;
-        in->apart |= 1u << e;
+        in->separate |= 1u << e;
         in->con.bits |= 1u << e;
         in->con.m += in->desc.effects[e].rows;
         if (kind == GVI_NONHOLONOMIC) gvi__rolling_effect(in, e);
@@ -10047,8 +10058,8 @@ GVI__COLD gvi_status gvi__place_chosen(struct gvi__private *in, int order, gvi_f
     if (in->chosen == GVI_EXPLICIT) in->stages = 0;
 #ifndef GVI_NO_NEWTON
     if (in->chosen == GVI_NEWTON && d->iterations > 0) return GVI_E_FORMULATION;
-    in->turns = gvi__newton_follows(in, gvi__held_rows(in));
-    in->newton.covers = in->chosen == GVI_NEWTON || in->turns;
+    in->fallback = gvi__newton_follows(in, gvi__con_rows(in));
+    in->newton.covers = in->chosen == GVI_NEWTON || in->fallback;
     matrices |= in->newton.covers;
     if (in->chosen == GVI_NEWTON) in->parts |= GVI__IN_NEWTON;
 #endif
@@ -10099,7 +10110,7 @@ GVI__COLD void gvi__place_layout(struct gvi__private *in, gvi__arena *a)
     in->dial.before = gvi__take(a, in->desc.resolution > 0, n);
 #endif
 #ifndef GVI_NO_NEWTON
-    if (in->newton.covers) gvi__newton_layout(in, gvi__held_rows(in), a);        // J comes last
+    if (in->newton.covers) gvi__newton_layout(in, gvi__con_rows(in), a);        // J comes last
 #endif
 }
 
@@ -10210,8 +10221,8 @@ static int gvi__place_solve(gvi_stepper *st, const gvi__origin *from, gvi_real h
     return 0;
 }
 
-static gvi_status gvi__place_turn(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query,
-                                  gvi_status status)
+static gvi_status gvi__place_fallback(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                      int query, gvi_status status)
 {
 #ifndef GVI_NO_DIAL
     if (st->in.dial.put_off && status == GVI_E_CONVERGENCE) return status;

@@ -285,26 +285,6 @@ TEST(angular_momentum_is_constant)
     check_angular_momentum(&st, 20000, (real)0.08, 4);
 }
 
-TEST(steps_back_return)
-{
-    for (int a = KEPLER; a < SCENES; ++a)
-    for (int s = 1; s <= 5; ++s) {
-        gvi_stepper st;
-        begin(&st, (scene_name)a, s, start);
-        assert_between(0, there_and_back(&st, 20, (const real[]){ 0.0625, 0.125 }, 2), 8*EPS);
-        assert_between(0, fabs(st.t), 2*EPS);
-        for (int k = 0; k < 20; ++k) {
-            const test_state before = state_now(&st);
-            real q[2], p[2];
-            assert_ok(gvi_step(&st, (real)0.0625));
-            assert_ok(gvi_state_at(&st, st.t0, q, NULL, NULL));
-            assert_true(q[0] == before.q[0] && q[1] == before.q[1]);
-            assert_ok(gvi_state_at(&st, st.t, q, NULL, p));
-            assert_true(q[0] == st.q[0] && q[1] == st.q[1] && p[0] == st.p[0] && p[1] == st.p[1]);
-        }
-    }
-}
-
 /* g = c is nothing but a step of c h.  The scene is regular: roundings of 200 steps
    part the two by their sum at most */
 TEST(a_constant_clock_is_a_longer_step)

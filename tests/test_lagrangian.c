@@ -224,77 +224,7 @@ TEST(energy_stays)
     }
 }
 
-/* -- against derivatives by hand */
-
 LAGRANGIAN(planet, 2) { return (v[0]*v[0] + v[1]*v[1])/2 + 1/sqrt(q[0]*q[0] + q[1]*q[1]); }
-
-GVI_EACH(attraction, 2, f)
-{
-    const real d2 = x->q[0]*x->q[0] + x->q[1]*x->q[1], w = -1/(d2*GVI_SQRT(d2));
-    x->f[0] += w*x->q[0];
-    x->f[1] += w*x->q[1];
-}
-
-GVI_EACH(magnetic, 2, v, f, dldv)
-{
-    const real X = x->q[0], Y = x->q[1];
-    x->dldv[0] -= Y/2;
-    x->dldv[1] += X/2 + X*X*X/12;
-    x->f[0] += (R(0.5) + X*X/4)*x->v[1] - X;
-    x->f[1] += -x->v[0]/2 - 4*Y;
-}
-
-GVI_EACH(links, 2, mass)
-{
-    x->mass[0] = 2;
-    x->mass[2] = cos(x->q[0] - x->q[1]);
-    x->mass[3] = 1;
-}
-
-GVI_EACH(links_gradient, 2, v, f)
-{
-    const real s = sin(x->q[0] - x->q[1])*x->v[0]*x->v[1];
-    x->f[0] -= s;
-    x->f[1] += s;
-}
-
-GVI_EACH(weight, 2, f)
-{
-    x->f[0] -= 2*g*sin(x->q[0]);
-    x->f[1] -= g*sin(x->q[1]);
-}
-
-GVI_EACH(relativistic, 2, v, f, dldv)
-{
-    const real d2 = x->q[0]*x->q[0] + x->q[1]*x->q[1], w = -1/(d2*GVI_SQRT(d2)),
-               gamma = 1/GVI_SQRT(1 - (x->v[0]*x->v[0] + x->v[1]*x->v[1])/25);
-    x->f[0] += w*x->q[0];
-    x->f[1] += w*x->q[1];
-    x->dldv[0] += gamma*x->v[0];
-    x->dldv[1] += gamma*x->v[1];
-}
-
-TEST(agrees_with_derivatives_by_hand)
-{
-    const struct { const lagrangian_function *L; gvi_effect effect; gvi_mass mass; real q[2], v[2], h; } cases[] = {
-        { &planet, { .kind = GVI_POTENTIAL, .points = attraction }, { .kind = GVI_MASS_UNIT }, { R(0.4), 0 }, { 0, 2 }, R(0.1) },
-        { &charge, { .kind = GVI_LAGRANGIAN, .points = magnetic }, { .kind = GVI_MASS_UNIT }, { R(0.8), R(0.4) }, { 0, R(0.5) }, R(0.2) },
-        { &pendulum, { .kind = GVI_POTENTIAL, .points = weight },
-          { .kind = GVI_MASS_POSITION, .points = links, .gradient = links_gradient }, { R(0.8), R(0.4) }, { 0, 0 }, R(0.05) },
-        { &fast, { .kind = GVI_LAGRANGIAN, .points = relativistic }, { .kind = GVI_MASS_NONE }, { R(0.8), 0 }, { R(0.1), 1 }, R(0.1) },
-    };
-    const int steps = KIND == 2 ? 20000 : 200;
-    for (int k = 0; k < COUNT(cases); ++k) {
-        const gvi_desc desc = { .n = 2, .degree = 8, .effects = &cases[k].effect, .effect_count = 1, .mass = cases[k].mass };
-        gvi_stepper hand = new_motion(&desc, 0, cases[k].q, cases[k].v), st = from_l(cases[k].L, 0, 8, cases[k].q, cases[k].v);
-        for (int i = 0; i < steps; ++i) {
-            assert_ok(gvi_step(&hand, cases[k].h));
-            assert_ok(gvi_step(&st, cases[k].h));
-        }
-        // roundings of the energy walk, and each moves the phase from then on
-        for (int i = 0; i < 2; ++i) assert_close(hand.q[i], st.q[i], 4*pow(steps, R(1.5))*cases[k].h*EPS);
-    }
-}
 
 /* -- the trap, in each kind: a variable that keeps the value alone.  `real r = q[0]` does the same, with a warning */
 

@@ -172,31 +172,6 @@ TEST(linear_scenes_need_one_factorisation)
         }
 }
 
-/* Hessians and differences lead to the same point, and it is that of the fixed point where that covers the
-   scene: M(q), damping, Lagrangian terms */
-TEST(newton_and_the_fixed_point_end_at_the_same_point)
-{
-    static const int kinds[] = { 0, HESSIANS, DAMPED | HESSIANS, DAMPED, TURNED | HESSIANS, TURNED, MOVING_MASS,
-                                 MOVING_MASS | DAMPED, DENSE | DAMPED | TURNED | HESSIANS };
-    parameters = (row){ 1, (gvi_real)0.3, 1, 1 };
-    for (int d = 0; d < COUNT(degrees); ++d)
-        for (int k = 0; k < COUNT(kinds); ++k) {
-            const int s = degrees[d], h = kinds[k] & HESSIANS ? 0 : 13;
-            gvi_stepper newton, other;
-            gvi_desc desc = describe(MOST - h, s, kinds[k], GVI_NEWTON);
-            begin(&newton, &desc, memory, sizeof memory);
-            go(&newton, (gvi_real)0.05, 30);
-            if (kinds[k] & TURNED) {              // not linear in v, but the fixed point is slow there
-                desc = describe(MOST - h, s, kinds[k] & ~HESSIANS, GVI_NEWTON);
-            } else {
-                desc.formulation = kinds[k] & MOVING_MASS ? GVI_MOMENTA : GVI_VELOCITIES;
-            }
-            begin(&other, &desc, spare, sizeof spare);
-            go(&other, (gvi_real)0.05, 30);
-            assert_close(apart(&newton, &other), 0, 40*EPS);
-        }
-}
-
 TEST(a_step_that_fails_leaves_everything_as_it_was)
 {
     gvi_stepper st, copy;

@@ -185,19 +185,6 @@ TEST(a_mass_is_the_same_wherever_it_is_read)
     }
 }
 
-/* One step and back.  The curve is the same read from its other end, so what is
-   left are roundings of increments: a few EPS of a state of size 1. */
-TEST(a_step_back_returns)
-{
-    for (int i = 0; i < COUNT(variants); ++i) {
-        gvi_stepper *st = set_up_variant(&variants[i]);
-        const real h = 0.25L;
-        assert_ok(gvi_start_momentum(st, 0.3L, start, start + 2));
-        assert_between(0, there_and_back(st, 1, &h, 1), 8*EPS);
-        assert_close(st->t, 0.3L, EPS);
-    }
-}
-
 /* 200 steps of different lengths, and the same back.  Independent errors of EPS/4 a step, and a motion that is
    regular: neighbours part linearly, by less than 20 times in the 20 units of time.  sqrt(400)/4 * 20 = 100. */
 TEST(many_different_steps_and_back_return)
