@@ -889,6 +889,8 @@ GAP(closing_walls)
     if (a == 0) *phi = q[0] + 1, G[0] = 1;
     else *phi = 1 - t - q[0], G[0] = -1, *rate = -1;
 }
+GVI_EACH(pinned, 2, rows(1)) { x->g[0] = x->q[0], x->jacobian[0] = 1; }
+GAP(coming_wall) { *phi = 1 - t - q[0], G[0] = -1, *rate = -1; (void)a; }
 GAP(under) { *phi = q[2*a + 1], G[2*a + 1] = 1; }
 GAP(wrong_slope) { *phi = q[1], G[1] = 2; }
 GAP(floors) { *phi = q[1], G[0] = 0, G[1] = 1 + (real)a; *phi *= 1 + (real)a; }
@@ -953,6 +955,13 @@ TEST(what_cannot_be_is_refused_and_leaves_no_trace)
     SAME_STATE(&c.st) assert_int_equal(contact_step(&c, R(0.2)), CONTACT_E_JAMMED);
     assert_between(0, c.fault, 1);
     REFUSED(c, twin, 8*EPS, CONTACT_E_JAMMED, contact_step(&c, R(0.2)));
+
+    c = (contact){ .count = 1, .slots = 1, .gap = coming_wall };               // cannot give way: x is held
+    list[0] = (gvi_effect){ .kind = GVI_CONSTRAINT, .points = pinned, .rows = 1 };
+    twins(&c, &twin, desc, (real[]){ 0, 0 }, (real[]){ 0, 1 });
+    REFUSED(c, twin, 8*EPS, CONTACT_E_JAMMED, contact_step(&c, 2));
+    assert_ok(contact_step(&c, R(0.5)));
+    list[0] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = weight };
 
     c = (contact){ .count = 1, .slots = 1, .gap = floors, .e = &e, .most = 20 };   // a bounce of ever less
     twins(&c, &twin, desc, (real[]){ 0, R(1e-3) }, (real[]){ 0, 0 });
