@@ -13,7 +13,7 @@
      friction f = { .contact = 1, .stick = 2, .slip = 3, .mu = 0.3, .speed = speed };
      friction_init(&f, &desc, memory, size);    friction_size(&desc) bytes
      friction_start(&f, t, q, v);
-     friction_step(&f, h);                      to t + h.  f.st is a gvi_stepper, to be read
+     friction_step(&f, h);                      to t + h, h > 0.  f.st is a gvi_stepper, to be read
 
    fails            a gvi_status; the state is that before the step, or of the last event in it
    not seen         a speed or a margin that changes its sign twice in a step; lambda < 0: contact.h             */
