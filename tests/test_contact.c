@@ -2,6 +2,7 @@
    complementarity, and a motion by Runge's and Kutta's method with events by bisection. */
 #include "gvi_test.h"
 #include "tools/contact.h"
+#include "tools/friction.h"
 
 #define GAP(name) static void name(int a, real t, const real *q, real *phi, real *G, real *rate, void *user)
 
@@ -678,6 +679,120 @@ TEST(a_pendulum_stops_dead)
     }
 }
 
+/* ---- friction ---- */
+
+static friction rub;
+static real pull;
+GVI_EACH(drag_and_weight, 2, f) { x->f[0] += pull*x->t[0], x->f[1] -= 1; }
+GVI_EACH(bowl, 2, rows(1))
+{
+    const real X = x->q[0], Y = x->q[1], r = sqrt(X*X + Y*Y);
+    x->g[0] = 1 - r, x->jacobian[0] = -X/r, x->jacobian[1] = -Y/r;
+}
+GVI_EACH(along, 2, rows(1))
+{
+    const real r = hypot(x->q[0], x->q[1]);
+    x->jacobian[0] = -x->q[1]/r, x->jacobian[1] = x->q[0]/r;
+}
+GVI_EACH(slips, 2, v, f)
+{
+    const real X = x->q[0], Y = x->q[1], r = sqrt(X*X + Y*Y), w = (X*x->v[1] - Y*x->v[0])/r,
+               N = w*w/r + (X*pull*x->t[0] - Y)/r;
+    x->f[0] += rub.mu*rub.sign*N*Y/r, x->f[1] -= rub.mu*rub.sign*N*X/r;
+}
+static real speed_along(real t, const real *q, const real *v, void *user)
+{
+    return (void)t, (void)user, (q[0]*v[1] - q[1]*v[0])/hypot(q[0], q[1]);
+}
+
+static void rub_in_a_bowl(int degree, real mu, real from)
+{
+    static gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = drag_and_weight },
+                                  { .kind = GVI_CONSTRAINT, .points = bowl, .rows = 1 },
+                                  { .kind = GVI_NONHOLONOMIC, .points = along, .rows = 1 },
+                                  { .kind = GVI_FORCE, .points = slips } };
+    const gvi_desc desc = { .n = 2, .degree = degree, .effects = scene, .effect_count = 4 };
+    rub = (friction){ .contact = 1, .stick = 2, .slip = 3, .mu = mu, .speed = speed_along };
+    assert_between(1, friction_size(&desc), sizeof memory);
+    assert_int_equal(friction_init(&rub, &desc, (real *)memory, friction_size(&desc) - 1), GVI_E_MEMORY);
+    assert_ok(friction_init(&rub, &desc, (real *)memory, friction_size(&desc)));
+    assert_ok(friction_start(&rub, 0, (real[]){ sin(from), -cos(from) }, (real[]){ 0, 0 }));
+}
+
+/* u = v^2 over the angle w from rest at `from`, s the sign: u' = -2 sin w - 2 mu s (u + cos w) */
+static wide square_of_speed(wide w, wide from, wide mu, wide s)
+{
+    const wide k = 2*mu*s, b = -3*k/(1 + k*k), a = -1 - b/k;
+    return a*cosl(w) + b*sinl(w) - (a*cosl(from) + b*sinl(from))*expl(-k*(w - from));
+}
+
+/* Slides there and back from -1.2 until it sticks; where, and after how many stops, is in closed form */
+TEST(a_bead_in_a_bowl_stops_where_friction_says)
+{
+    wide stop[8], from = -1.2L;
+    int stops = 0;
+    for (wide s = 1; stops < 8 && (stops == 0 || fabsl(tanl(from)) > (wide)R(0.2)); s = -s) {
+        wide lo = from + s*1e-3L, hi = lo;
+        while (square_of_speed(hi, from, R(0.2), s) > 0) hi += s*0.01L;
+        for (int k = 0; k < 100; ++k) {
+            const wide w = (lo + hi)/2;
+            if (square_of_speed(w, from, R(0.2), s) > 0) lo = w; else hi = w;
+        }
+        from = stop[stops++] = lo;
+    }
+    assert_between(2, stops, 6);
+    for (int s = 1; s <= 5; ++s) {
+        real error[3];
+        for (int k = 0; k < 3; ++k) {
+            pull = 0;
+            rub_in_a_bowl(s, R(0.2), R(-1.2));
+            assert_true(rub.sign > 0);
+            for (int i = 0; i < 32 << k; ++i) {
+                assert_ok(friction_step(&rub, R(14.0)/(real)(32 << k)));
+                assert_close(hypot(rub.st.q[0], rub.st.q[1]), 1, 8*EPS);
+            }
+            assert_int_equal(rub.stops, stops);
+            assert_int_equal(rub.breaks, 0);
+            assert_true(rub.sign == 0);
+            const wide last = atan2l((wide)rub.st.q[0], -(wide)rub.st.q[1]);
+            error[k] = (real)fabsl(last - stop[stops - 1]);
+        }
+        assert_order(error + 1, 2, s, 16*EPS);
+        assert_between(0, error[2], s < 4 ? 1 : 16*EPS + R(1e-14));
+    }
+}
+
+/* At the lowest point, a side force that grows like t/20 breaks it away where that is mu; from there
+   v v' = t/20 cos w - sin w - mu (v^2 + t/20 sin w + cos w), by Runge's and Kutta's method */
+TEST(a_bead_breaks_away)
+{
+    for (int way = -1; way <= 1; way += 2) {
+        pull = (real)way/20;
+        rub_in_a_bowl(4, R(0.3), 0);
+        assert_true(rub.sign == 0);
+        for (int i = 0; i < 12; ++i) assert_ok(friction_step(&rub, R(0.4)));
+        assert_int_equal(rub.breaks, 0);
+        assert_close(rub.st.q[0], 0, 64*EPS);
+        for (int i = 0; i < 40; ++i) assert_ok(friction_step(&rub, R(0.1)));
+        assert_int_equal(rub.breaks, 1);
+        assert_true(rub.sign == way);
+
+        wide y[2] = { 0, 0 };
+        const wide mu = (wide)R(0.3), from = 20*mu, h = ((wide)rub.st.t - from)/4000;
+        for (int i = 0; i < 4000; ++i) {
+            wide k[4][2], z[2];
+            for (int j = 0; j < 4; ++j) {
+                const wide part = j == 0 ? 0 : j == 3 ? h : h/2, drag = (from + (wide)i*h + part)/20;
+                for (int c = 0; c < 2; ++c) z[c] = y[c] + (j ? part*k[j - 1][c] : 0);
+                k[j][0] = z[1];
+                k[j][1] = drag*cosl(z[0]) - sinl(z[0]) - mu*(z[1]*z[1] + drag*sinl(z[0]) + cosl(z[0]));
+            }
+            for (int c = 0; c < 2; ++c) y[c] += h*(k[0][c] + 2*k[1][c] + 2*k[2][c] + k[3][c])/6;
+        }
+        assert_close((real)(way*asinl((wide)rub.st.q[0])), (real)y[0], 16*EPS + R(1e-14));
+    }
+}
+
 /* ---- decisions ---- */
 
 /* z >= 0, y = W z + b >= 0, z'y = 0, by the definition: of random contacts, more of them than coordinates in half of all */
@@ -774,6 +889,8 @@ GAP(closing_walls)
     if (a == 0) *phi = q[0] + 1, G[0] = 1;
     else *phi = 1 - t - q[0], G[0] = -1, *rate = -1;
 }
+GVI_EACH(pinned, 2, rows(1)) { x->g[0] = x->q[0], x->jacobian[0] = 1; }
+GAP(coming_wall) { *phi = 1 - t - q[0], G[0] = -1, *rate = -1; (void)a; }
 GAP(under) { *phi = q[2*a + 1], G[2*a + 1] = 1; }
 GAP(wrong_slope) { *phi = q[1], G[1] = 2; }
 GAP(floors) { *phi = q[1], G[0] = 0, G[1] = 1 + (real)a; *phi *= 1 + (real)a; }
@@ -838,6 +955,13 @@ TEST(what_cannot_be_is_refused_and_leaves_no_trace)
     SAME_STATE(&c.st) assert_int_equal(contact_step(&c, R(0.2)), CONTACT_E_JAMMED);
     assert_between(0, c.fault, 1);
     REFUSED(c, twin, 8*EPS, CONTACT_E_JAMMED, contact_step(&c, R(0.2)));
+
+    c = (contact){ .count = 1, .slots = 1, .gap = coming_wall };               // cannot give way: x is held
+    list[0] = (gvi_effect){ .kind = GVI_CONSTRAINT, .points = pinned, .rows = 1 };
+    twins(&c, &twin, desc, (real[]){ 0, 0 }, (real[]){ 0, 1 });
+    REFUSED(c, twin, 8*EPS, CONTACT_E_JAMMED, contact_step(&c, 2));
+    assert_ok(contact_step(&c, R(0.5)));
+    list[0] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = weight };
 
     c = (contact){ .count = 1, .slots = 1, .gap = floors, .e = &e, .most = 20 };   // a bounce of ever less
     twins(&c, &twin, desc, (real[]){ 0, R(1e-3) }, (real[]){ 0, 0 });

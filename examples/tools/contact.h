@@ -33,7 +33,7 @@
                     each contact with differences, as gvi.h does
    scenes           T quadratic in v; other constraints, M(q), forces as in gvi.h.  GVI_EFFECTS limits the slots
    not seen         a lambda that changes its sign twice in a step, a gap that turns twice in 1/(s + 1) of one: take
-                    shorter steps.  Friction: docs/hard-cases.md
+                    shorter steps.  Friction: friction.h
 
    Sources: Moreau: Unilateral contact and dry friction in finite freedom dynamics, 1988; Pfeiffer, Glocker:
    Multibody dynamics with unilateral contacts, 1996; Lawson, Hanson: Solving least squares problems, 1974, ch. 23
@@ -467,19 +467,13 @@ static inline gvi_status contact__together(contact *c, contact_set *s, int slow)
     return GVI_OK;
 }
 
-/* What speed i may be by the rounding of an impact.  */
-static inline gvi_real contact__still(const contact_set *s, int i)
-{
-    return s->tiny[i] + 256*contact__eps*GVI_SQRT(s->size*s->W[i*s->k + i]);
-}
-
 static inline gvi_status contact__in_turn(contact *c, contact_set *s)
 {
     for (int pass = 0; pass < 10000; ++pass) {
         int f = -1;
         (void)contact__after(s);
         for (int i = 0; i < s->k; ++i)
-            if (s->after[i] < -contact__still(s, i) && (f < 0 || s->after[i] < s->after[f])) f = i;
+            if (s->after[i] < -s->tiny[i] && (f < 0 || s->after[i] < s->after[f])) f = i;
         if (f < 0) return GVI_OK;
         s->z[f] -= (1 + (c->e && s->after[f] < -c->rest ? c->e[s->which[f]] : 0))*s->after[f]/s->W[f*s->k + f];
     }
@@ -505,7 +499,6 @@ static inline gvi_status contact__impact(contact *c, contact_set *s)
         for (int j = 0; j < c->st.n; ++j) c->v[j] += c->way*c->R[i*c->st.n + j]*s->z[i];
         c->impulse[a] = s->z[i];
         if (s->z[i] > 0) contact__tell(c, CONTACT_IMPACT, a);
-        s->tiny[i] = contact__still(s, i);
         s->speed[i] = slow && s->after[i] < c->rest ? 0 : s->after[i];
         if (slow && (bounces || s->speed[i] < s->after[i])) contact__tell(c, CONTACT_CAPTURED, a);
     }
@@ -658,12 +651,7 @@ static inline gvi_status contact__resolve(contact *c, int closed, int undecided,
     gvi_status status = contact__load(c);
     if (!status) status = contact__touching(c, closed, &s);
     if (!status) status = contact__measure(c, &s);
-    for (int i = 0; i < s.k && !status; ++i) {
-        hit |= s.speed[i] < -s.tiny[i] && contact__slot(c, s.which[i]) < 0;
-        if (!undecided || s.which[i] != closed || s.speed[i] <= s.tiny[i]) continue;
-        s.speed[i] = 0;
-        contact__tell(c, CONTACT_CAPTURED, closed);
-    }
+    for (int i = 0; i < s.k && !status; ++i) hit |= s.speed[i] < -s.tiny[i] && contact__slot(c, s.which[i]) < 0;
     if (!status && hit) status = contact__impact(c, &s);
     if (!status) status = undecided && !hit ? contact__look_ahead(c, closed, bits, &s) : contact__pressing(c, &s);
     return status ? status : contact__hold(c, &s, t, t_low);
@@ -796,7 +784,7 @@ static inline gvi_status contact__closing(contact *c, const contact_state *from,
     for (int a = 0; *part > 0 && !(status = contact__find(c, x, &a)) && a >= 0; ) {
         if (x[0] < 0) x[0] = 0;
         if ((status = contact__land(c, from, a, *part*h, x, &at))) break;
-        if (at < 0) {                                      // that of a is no closing; another's may be near
+        if (at < 0) {                                      // a does not close; another may, in the same interval
             c->refused[a] = x[1] + (gvi_real)1e-3;
             if ((status = contact__again(c, from, *part*h))) break;
             continue;
