@@ -56,7 +56,7 @@ static double off(double *at, const double *from, const double *column)
     double end[5][6], worst = 0, largest = 0;
     for (int k = 0; k < 5; ++k) {
         *at = middle + (k - 2)*d;
-        if (orbit(from, end[k], NULL)) return INFINITY;
+        if (orbit(from, end[k], NULL)) return HUGE_VAL;
     }
     *at = middle;
 

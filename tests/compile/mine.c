@@ -1,4 +1,4 @@
-/* What `make mycost FILE=tests/compile/mine.c` reads, as docs/tools.md shows it */
+/* What `make mycost FILE=tests/compile/mine.c` reads, of docs/tools.md */
 LAGRANGIAN(mine, 2)
 {
     const double g = 9.81;
