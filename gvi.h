@@ -10247,12 +10247,6 @@ static gvi_status gvi__place_accept(gvi_stepper *st)
     gvi_status status = GVI_OK;
 #ifndef GVI_NO_DIAL
     if (st->in.desc.resolution > 0) status = gvi__dial_accept(st);
-    // a shorter step would be noisier
-    GVI__CONSTRAINTS_ON(
-        const gvi_fault fault = st->fault;
-        if (status == GVI_E_RESOLUTION && gvi__check_rank(st, GVI__FADES) != GVI_OK)
-            return GVI_E_SINGULAR;
-        st->fault = fault)
 #endif
     return status;
 }
