@@ -3891,7 +3891,7 @@ static int gvi__at_floor(gvi_stepper *st, gvi__progress *p, gvi_real h, const gv
     const gvi_real excess = gvi__excess(st, h, stage, 1);
     if (still && long_since && excess <= 1) return end;
 
-    // a row that tends to 0 changes by its whole size: does its amplitude fall?
+    // a row that tends to 0 changes by its whole size: does its amplitude fall?  (make everyday)
     p->poor = excess > 1 && excess > p->excess/2 ? p->poor + poor : 0;
     p->excess = excess;
     return st->in.fallback && p->poor > GVI__PATIENCE ? GVI__DIVERGES : GVI__GO_ON;
@@ -7318,7 +7318,7 @@ GVI__CALLED gvi_status gvi__check_rank(gvi_stepper *st, int margin)
     return GVI_OK;
 }
 
-// what rows are off by at an end is rounding of g; that of earlier ends fades, as q moves on
+// what rows are off by at an end is rounding of g; that of earlier ends fades (make hard-rest)
 static void gvi__keep_noise(gvi_stepper *st, int start)
 {
     gvi_real *noise = st->in.con.noise;
@@ -10301,12 +10301,6 @@ static gvi_status gvi__place_accept(gvi_stepper *st)
     gvi_status status = GVI_OK;
 #ifndef GVI_NO_DIAL
     if (st->in.desc.resolution > 0) status = gvi__dial_accept(st);
-    // a shorter step would be noisier
-    GVI__CONSTRAINTS_ON(
-        const gvi_fault fault = st->fault;
-        if (status == GVI_E_RESOLUTION && gvi__check_rank(st, GVI__FADES) != GVI_OK)
-            return GVI_E_SINGULAR;
-        st->fault = fault)
 #endif
     return status;
 }

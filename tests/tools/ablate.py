@@ -32,8 +32,6 @@ CONDITIONS = [   # what it is, the tests near it, what stands in gvi.h and what 
      [('slow = !(size < before/64);', 'slow = 0;')]),
     ("the end of Newton's step: has the rank turned?", 'constraints constraints_newton loops rolling resolution',
      [('for (int ej = 0; ej < st->s*m; ++ej) {\n        const int e = ej/m', 'for (int ej = 0; ej < 0*st->s*m; ++ej) {\n        const int e = ej/m')]),
-    ('rank is judged before the resolution', 'constraints constraints_newton loops rolling resolution',
-     [('if (status == GVI_E_RESOLUTION && gvi__check_rank', 'if (0 && status == GVI_E_RESOLUTION && gvi__check_rank')]),
     ('rank is judged in a step', 'constraints constraints_newton loops rolling resolution',
      [('status = gvi__check_rank(st, start ? 0 : in->con.margin);', 'status = start ? gvi__check_rank(st, 0) : GVI_OK;')]),
     ('gvi_project: part of a change', 'constraints constraints_newton loops rolling resolution',
