@@ -9057,9 +9057,10 @@ static gvi_real gvi__length(gvi_real k)
 }
 
 /* How many rungs up, after a step that succeeded.  `room`: up to where the resolution, of order
-   2s - 1 in h, or 2 at degree 1, reaches its limit, less a margin.  What was lost of it since the step before will be
-   lost again; two octaves are no measure.  From 0 to GVI__BAND rungs h stays.  Work over time is
-   iterations/h: from GVI__MANY of them on h does not grow, from 5/3 of that on it shrinks.    */
+   2s - 1 in h, or 2 at degree 1, reaches its limit, less a margin.  What was lost of it since the
+   step before will be lost again; two octaves are no measure.  From 0 to GVI__BAND rungs h stays.
+   Work over time is iterations/h: from GVI__MANY of them on h does not grow, from 5/3 of that on
+   it shrinks.                                                                                 */
 static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 {
     struct gvi__dial *dial = &st->in.dial;
