@@ -9007,9 +9007,10 @@ static gvi_real gvi__length(gvi_real k)
 }
 
 /* How many rungs up, after a step that succeeded.  `room`: up to where the resolution, of order
-   2s - 1 in h, reaches its limit, less a margin.  What was lost of it since the step before will be
-   lost again; two octaves are no measure.  From 0 to GVI__BAND rungs h stays.  Work over time is
-   iterations/h: from GVI__MANY of them on h does not grow, from 5/3 of that on it shrinks.    */
+   2s - 1 in h, or 2 at degree 1, reaches its limit, less a margin.  What was lost of it since the
+   step before will be lost again; two octaves are no measure.  From 0 to GVI__BAND rungs h stays.
+   Work over time is iterations/h: from GVI__MANY of them on h does not grow, from 5/3 of that on
+   it shrinks.                                                                                 */
 static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 {
     struct gvi__dial *dial = &st->in.dial;
@@ -9056,7 +9057,7 @@ static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
     const gvi_real most = gvi__rungs(st->in.desc.resolution) - gvi__rungs(seen);
     // the modes end at rounding: above GVI__DEEP the resolution falls no faster than there
     const int degree = st->s < GVI__DEEP ? st->s : GVI__DEEP;
-    const gvi_real room = most/(gvi_real)(2*degree - 1) - 1,
+    const gvi_real order = (gvi_real)(degree > 1 ? 2*degree - 1 : 2), room = most/order - 1,
                    up = status == GVI_OK ? gvi__rungs_up(st, at, room)
                                          : gvi__rungs_down(st, status, at, room),
                    // half of what was left to an end, doubled, is to be all of it

@@ -114,8 +114,8 @@ int main(int count, char **words)
             printf("  %d  %-20s %13.2e J %9d %9d %18.2f %8.2f%s\n", degree, ways[k].name, r.off, r.steps, r.refused, r.sum,
                    r.worst, r.failed ? "   stopped" : "");
             fflush(stdout);
-            // what nobody sees: a quarter of the fall, or at .01 a tenth
-            if (ways[k].resolution > 0) misses += r.failed || r.off > fall/(ways[k].resolution < .05 ? 10 : 4);
+            // what nobody sees: a third of the fall, or at .01 a tenth
+            if (ways[k].resolution > 0) misses += r.failed || r.off > fall/(ways[k].resolution < .05 ? 10 : 3);
             else if (degree == 1) misses += !r.failed && r.off < fall;
         }
     free(room);
