@@ -7408,6 +7408,18 @@ static gvi_real gvi__project_momentum(gvi_stepper *st, const gvi_real *v, gvi_re
     return size;
 }
 
+/* P' M^-1 P, twice the kinetic energy of what p at the end was added up from: rounding of v is
+   rounding of that, also where p or v is next to 0 there.                                     */
+GVI__COLD gvi_real gvi__energy_of_terms(const gvi_stepper *st, const gvi__origin *from,
+                                        gvi_real *P, gvi_real *z)
+{
+    const int n = st->n;
+    for (int i = 0; i < n; ++i)
+        P[i] = z[i] = GVI_ABS(from->p[i]) + GVI_ABS(st->in.step.p[i]);
+    gvi__over_inertia(st, z, 1, 1);
+    return GVI_ABS(gvi__dot(n, P, z));
+}
+
 /* step.p += G' y such that G v + dg/dt = 0 at the end: once, and once more for the rounding of
    that, or with Lagrangian terms until that is left.  At a start, what is farther off than
    rounding is refused; for v by the kinetic energy in it, r' A^-1 r/2, r = G v + dg/dt, or by r. */
@@ -7446,7 +7458,8 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
         before = size;
     }
 
-    if (passes > 2 && !(size <= far*far*energy))
+    if (passes > 2 && !(size <= far*far*energy) && !gvi__rates_are_rounding(st, t, q, v)
+        && !(size <= far*far*gvi__energy_of_terms(st, from, p, in->con.scratch)))
         return gvi__report_status(st, GVI_E_CONVERGENCE);
 
     // rows that are left out had no part in this; later g shows what is wrong, where they have one

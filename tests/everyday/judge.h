@@ -8,7 +8,7 @@
    to the roundings of the heaviest, |q| sqrt(m).
    Ends by other equations (other coordinates, degrees, rules): each may be off by what half of its h changes.
    By the dial: 10 times the worst st.resolution for each step, as the header says, and once 190 times, the worst
-   that `make hard-dial` knows of one step.
+   that `make hard-dial` knows of one step; or the dial in its place, where the measure is rounding of q over h v.
    Cost.  At most 1.5 times the points of the best fixed point that is pinned, or one iteration a step more, as a coordinate that
    is exactly 0 saves.  Where Newton's method takes over, its matrices counted as points, 1.2 times the best that is pinned
    and the attempt that failed.  By the dial, at most twice the steps of the best, and three.           */
@@ -119,7 +119,8 @@ static double shift_of(const written *w)
 {
     double most = 0;
     for (int i = 0; i < now.s->n; ++i)
-        most = fmax(most, fabs((double)w->origin[i]) + fabs((double)w->speed[i])*(double)now.s->period);
+        most = fmax(most, fabs((double)w->origin[i])
+                              + fabs((double)w->speed[i])*((double)now.s->period + fabs((double)(w->date/w->time))));
     return most/now.size;
 }
 
@@ -444,10 +445,17 @@ static outcome reference_of(const scene *s)
     return a;
 }
 
+/* Modes that are rounding of q in h v count as no error (gvi__modes_end), so a step may be off by that, or by the dial */
+static double resolution_of(const written *w, const outcome *a)
+{
+    const double steps = (double)a->steps, rounding = 4*(double)EPS*(1 + shift_of(w))*steps*tau_of(now.s)/(double)now.s->period;
+    return fmax(a->resolution, fmin((double)w->dial, rounding));
+}
+
 static double allowed_by_dial(const written *w, const outcome *a)
 {
     const double time = (double)EPS*fabs((double)(w->date/w->time))/tau_of(now.s);   /* the end is rounded to t's places */
-    return (10*(double)a->steps + 190)*a->resolution*now.growth*now.size*(1 + shift_of(w)) + roundings(w, a->steps + 512) + 4*time*now.size;
+    return (10*(double)a->steps + 190)*resolution_of(w, a)*now.growth*now.size*(1 + shift_of(w)) + roundings(w, a->steps + 512) + 4*time*now.size;
 }
 
 /* One run by the dial against the reference and the steps of the best that is pinned; how far it is off, or -1 */
