@@ -124,9 +124,9 @@
               coordinate; no tolerance or test of the library depends on them.
               Magnitudes below 1e-307 (float: 1e-31) count as 0.
    rounding   Needs round to nearest and subnormals; -ffast-math and its parts are
-              refused, or have no effect; but of clang's, no macro shows -fno-honor-nans,
-              -fno-honor-infinities and -freciprocal-math: do not use them.  q, p and t
-              carry compensation terms, so 1e9 steps of t + h are as exact as one.
+              refused or have no effect.  Do not use clang's -fno-honor-nans,
+              -fno-honor-infinities and -freciprocal-math: no macro shows them.  q, p and
+              t carry compensation terms, so 1e9 steps of t + h are as exact as one.
               Compiled with -ffp-contract=off, it gives the same bits on every IEEE
               machine but x87, if the callbacks give the same bits and products stay
               between 1e-290 and 1e299 (float: 1e-30 and 1e34); beyond, their low words

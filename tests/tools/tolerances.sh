@@ -30,7 +30,7 @@ outcome() {
 runs=$(grep -vc '^\(#\|compiler\)' tests/data/instructions.txt)
 base=$(outcome '')
 echo "as it is: $base"
-[ $# -gt 0 ] || set -- $(sed -n '/- TOLERANCES$/,/- LINEAR ALGEBRA/s/^#define \(GVI__[A-Z_]*\) .*/\1/p' gvi.h)
+[ $# -gt 0 ] || set -- $(sed -n '/- TOLERANCES$/,/- BLOCKS/s/^#define \(GVI__[A-Z_]*\) .*/\1/p' gvi.h)
 for name; do
     for factor in '(\2)/2' '(\2)*2'; do
         outcome "s|^#define \($name\)  *\([^ ]*\)|#define \1 ($factor)|" >"$dir/found"
