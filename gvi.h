@@ -3502,14 +3502,16 @@ static gvi_real gvi__rows_by_points(const gvi_stepper *st, const gvi__stage *y, 
         if (!sums) gvi__sum_row(st, y, i, z);
         GVI__ALONG(R, GVI__TO(z) = base + (GVI__AT(free) + GVI__AT(z)*inverse*factor))
         if (rescale) y->scale[i] = gvi__scale_of(base, row[last], z[last]);
-        const gvi_real scale = y->scale[i], a = (z[last] - row[last])*scale,
-                       b = (z[middle] - row[middle])*scale;
-        y->change[i] = a*a + b*b;
+        const gvi_real scale = y->scale[i];
+        gvi_real two = 0;
         for (int k = R - 1; k >= 0; --k) {
-            const gvi_real moved = (z[k] - row[k])*scale;
-            square[k & 7] += moved*moved;
+            const gvi_real moved = (z[k] - row[k])*scale, part = moved*moved;
+            square[k & 7] += part;
+            if (k == last) two += part;
+            if (k == middle) two += part;
             row[k] = z[k];
         }
+        y->change[i] = two;
     }
 
     return gvi__sum_squares(square);
