@@ -98,8 +98,9 @@ int main(void)
         if (bead.stops == seen) continue;
         seen = bead.stops;
         right = stop_after(right);
-        if (bead.sign == 0) off = fabs(atan2(bead.st.q[0], -bead.st.q[1]) - right);
-        printf("stops at %9.6f and %s\n", right, bead.sign == 0 ? "sticks: the slope is less than mu = 0.2" : "slides back");
+        const int slides = bead.sign < 0 || bead.sign > 0;
+        if (!slides) off = fabs(atan2(bead.st.q[0], -bead.st.q[1]) - right);
+        printf("stops at %9.6f and %s\n", right, slides ? "slides back" : "sticks: the slope is less than mu = 0.2");
     }
 
     if (status != GVI_OK) return printf("%s\n", gvi_why(&bead.st)), 1;
