@@ -3109,7 +3109,6 @@ GVI__COLD size_t gvi__layout(struct gvi__private *in, int order, gvi_real *base)
         { &in->watch.scale, 2*it, n }, { &in->watch.change, 2*it, n },
         { &in->watch.before, 2*it, n },
         { &in->point, 6, n },         { &in->answer, 3, n }
-
     };
     gvi__arena memory = { base, 0 }, *a = &memory;
     for (size_t k = 0; k < sizeof list/sizeof *list; ++k)
@@ -6139,7 +6138,6 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
               kept = J->pivot == in->newton.pivot;
     gvi__descent p = {
         0, 0, GVI__MAX, GVI__CONTRACTS, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, -1, 0
-
     };
     p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);
     in->newton.bend = 0;
@@ -6352,7 +6350,6 @@ GVI__COLD void gvi__newton_layout(struct gvi__private *in, int m, gvi__arena *a)
     gvi_real **const unknowns[] = {
         &newton->y, &newton->dy, &newton->residual, &newton->last,
         &newton->found, &newton->branch, &newton->guess, &newton->slope
-
     };
     if (in->stages == 1) {                        // V, from the modes
         in->work.V = gvi__take(a, n, R);
@@ -7411,7 +7408,7 @@ static gvi_real gvi__project_momentum(gvi_stepper *st, const gvi_real *v, gvi_re
 }
 
 /* P' M^-1 P, twice the kinetic energy of what p at the end was added up from: rounding of v is
-   rounding of that, also where p or v is next to 0 there.                                     */
+   rounding of that, also where p or v is next to 0 there (make everyday).                     */
 GVI__COLD gvi_real gvi__energy_of_terms(const gvi_stepper *st, const gvi__origin *from,
                                         gvi_real *P, gvi_real *z)
 {
@@ -7843,7 +7840,6 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
         { &con->y, on, 7*m },
         { &con->G1, 2*m, n }, { &con->gram1, m, m }, { &con->column, m, n + 1 },
         { &con->first, on, m }, { &con->drops, 2*on, m }, { &con->noise, on, m }
-
     };
     con->C = (int)C;
     con->Q = in->chosen == GVI_MOMENTA;
@@ -8134,8 +8130,8 @@ static gvi_real gvi__approach(gvi_stepper *st, const gvi_real *q, gvi_real share
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     gvi_real *e = in->step.q, *f = in->step.p, *next = in->answer, *d = next + n,
-             *impulse = in->point,
-             *path = impulse + 2*n, *z = in->con.rho, *r = z + m, *back = r + m, change = 0;
+             *impulse = in->point, *path = impulse + 2*n, *z = in->con.rho, *r = z + m,
+             *back = r + m, change = 0;
 
     for (int a = 0; a < m; ++a) {
         back[a] = -in->con.g[a];

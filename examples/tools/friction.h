@@ -141,8 +141,15 @@ static inline gvi_status friction__event(friction *f, gvi_real h, gvi_real fa, g
         *part = a + (b - a)*(fa/(fa - fb));
         if (!(*part > a && *part < b)) *part = a + (b - a)/2;
         status = friction__again(f, *part*h, &m);
-        if (m > 0) { a = *part, fa = m; if (side < 0) fb /= 2; side = -1; }
-        else { b = *part, fb = m; if (side > 0) fa /= 2; side = 1; }
+        if (m > 0) {
+            a = *part, fa = m;
+            if (side < 0) fb /= 2;
+            side = -1;
+        } else {
+            b = *part, fb = m;
+            if (side > 0) fa /= 2;
+            side = 1;
+        }
     }
     return status;
 }

@@ -68,6 +68,8 @@ CONDITIONS = [   # what it is, the tests near it, what stands in gvi.h and what 
      [('if (!(D*other <= limit)) return 0;', '')]),
     ("halfway into a callback's domain", 'uncoupled regressions jumps convergence hostile newton tolerance domains resolution constraints',
      [('&& shorter++ < GVI__NEARER) {', '&& shorter++ < 0) {')]),
+    ("an end's velocity by what p was added up from", 'constraints rolling loops constraints_newton lagrangian',
+     [(' && !gvi__rates_are_rounding(st, t, q, v)\n        && !(size <= far*far*gvi__energy_of_terms(st, from, p, in->con.scratch)))', ')')]),
 ]
 
 
