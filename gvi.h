@@ -5672,7 +5672,7 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, const gv
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, R = in->R, k0 = J->k0, first = !(p->norm < GVI__MAX),
-              known = J->scale && st->in.desc.mass.kind == GVI_MASS_NONE,
+              none = st->in.desc.mass.kind == GVI_MASS_NONE,
               constrained = gvi__con_unknowns(st) > 0;
     const gvi_real h = in->sized.h;
     gvi_real norm = 0, moved = 0, before = 0;
@@ -5707,8 +5707,9 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, const gv
             if (size > 0 && GVI_ABS(sum)/size > p->work) p->work = GVI_ABS(sum)/size;
         }
         in->watch.change[i] = momenta;
-        if (first && known && J->scale[i] > 0) in->watch.scale[i] = J->scale[i];
-        else if (first) in->watch.scale[i] = 1/GVI_SQRT(gvi__place_inertia(st, i));
+        if (first && none) in->watch.scale[i] = J->scale ? J->scale[i] : 0;
+        if (first && !(none && in->watch.scale[i] > 0))
+            in->watch.scale[i] = 1/GVI_SQRT(gvi__place_inertia(st, i));
         norm += length*in->watch.scale[i];
         moved += change*in->watch.scale[i];
         before += was*in->watch.scale[i];
@@ -8794,7 +8795,7 @@ static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real 
         change *= h;
         reach *= inertia;
     } else {
-        terms += (2*p + dp)/inertia;
+        terms += (2*p + dp)/inertia*(in->adds_p ? 2 : 1);      // A is P, but for M V
         change += dp/inertia;
     }
 
@@ -10200,7 +10201,7 @@ static gvi_status gvi__place_velocity(gvi_stepper *st, gvi_real t, const gvi_rea
     return GVI_OK;
 }
 
-// M_ii, or p_i/v_i where the effects alone make the mass
+// M_ii; where effects alone make the mass, d2L/dv_i2 if Newton's method knows it, else p_i/v_i
 static gvi_real gvi__place_inertia(const gvi_stepper *st, int i)
 {
     const struct gvi__private *in = &st->in;
@@ -10213,6 +10214,8 @@ static gvi_real gvi__place_inertia(const gvi_stepper *st, int i)
         const gvi_real *P = NULL;
         GVI__MOMENTA(P = in->momenta.P)
 #ifndef GVI_NO_NEWTON
+        const gvi_real unit = in->watch.scale[i];
+        if (st->formulation == GVI_NEWTON && unit > 0) return 1/(unit*unit);
         if (st->formulation == GVI_NEWTON || !P) P = in->newton.P;
 #endif
         if (P) m = P[i*in->R]/in->work.V[i*in->R];

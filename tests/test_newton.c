@@ -598,6 +598,27 @@ TEST(a_general_L_starts_from_rest_however_short_the_step)
             }
 }
 
+/* The same by the dial: beside a large p, rounding of v is no error of a step, however short the step is.  dL/dv over v,
+   which a gauge makes as large as it likes, would say so of one that starts from rest. */
+TEST(a_mass_of_terms_is_measured_as_it_is_whatever_the_gauge)
+{
+    static const gvi_effect e = { .kind = GVI_LAGRANGIAN, .points = charge_in_polar };
+    const gvi_desc desc = { .n = 2, .degree = 8, .mass = { .kind = GVI_MASS_NONE }, .effects = &e, .effect_count = 1,
+                            .resolution = (real)1e-4L };
+    for (int k = 1; k <= 40; ++k) {
+        gvi_stepper st = new_motion(&desc, 0, (real[]){ 1, 0 }, (real[]){ 0, 0 });
+        assert_ok(gvi_step(&st, ldexp(1, -k)));
+    }
+
+    gvi_stepper st = new_motion(&desc, 0, (real[]){ 1, 0 }, (real[]){ 0, 0 });
+    while (st.status == GVI_OK && st.t < 1 && st.counters.steps < 100) gvi_advance(&st, 1);
+    assert_ok(st.status);
+    // 2^-10 of the way, and twice as long each time
+    assert_in_range(st.counters.steps, 9, 12);
+    assert_close(st.q[0], sqrtl(cosl(2)*cosl(2) + sinl(2)*sinl(2)/4), desc.resolution);
+    assert_close(st.q[1], atan2l(sinl(2)/2, cosl(2)) - 1, desc.resolution);
+}
+
 /* Damped springs at a contraction of about 1/4: two bits an iteration, 27 and more of them a step, to Newton's 2 */
 GVI_EACH(damped_spring, 4, v, f)
 {

@@ -18,6 +18,8 @@ MUTANTS = [
     ("mass regressions api", "m, at);\n    if (status == GVI_OK) return GVI_OK;\n    return gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);",
               "m, at);\n    if (status == GVI_OK) return GVI_OK;\n    return gvi__report(st, status, GVI_FAULT_MASS, at[1], at[0]);"),
     ("newton", "const gvi_real now = -(gvi_real)(2*k + 1)*sum;", "const gvi_real now = -sum;"),
+    ("newton", "if (st->formulation == GVI_NEWTON && unit > 0) return 1/(unit*unit);", "(void)unit;"),
+    ("newton", "/inertia*(in->adds_p ? 2 : 1);", "/inertia;"),
     ("jumps newton", "from->q[i] + (from->q_low[i] + in->sized.h*Q[j])", "from->q[i] + in->sized.h*Q[j]"),
     ("tangent identities", "if (mirror == most || gvi__nonzero(b[mirror] - b[most])) sized->hb[most]", "if (mirror < r) sized->hb[most]"),
     ("identities structure oracle", "gvi__grid(gvi__coupling(st, Phi, low, i), GVI__EPS/2)", "gvi__grid(gvi__coupling(st, Phi, low, i), GVI__EPS/4)"),
