@@ -4553,7 +4553,7 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
             } else if (at_rest && target > 0 && moved > 16*target) {
                 next = d*(target/moved);
             } else if (moved < target/2 && GVI_ABS(d)/GVI_SQRT(root) < edge) {
-                next = d/GVI_SQRT(root);
+                next = d*gvi__smaller(target/moved, 1/GVI_SQRT(root));
             } else break;
             if (!gvi__nonzero(next)) break;
         }
@@ -4642,10 +4642,10 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
 }
 
 /* d2L/dv2 at one point and its LU, to lagrangian.hessian; symmetric, which its differences are not.
-   Where effects alone make the mass, it is known now, at rest as well.                        */
+   What effects add to the mass, which may grow with v, is known now, at rest as well.         */
 GVI__OFFERED gvi_status gvi__factor_hessian(gvi_stepper *st, gvi_points *at, gvi_real *v)
 {
-    const int n = st->n, none = st->in.desc.mass.kind == GVI_MASS_NONE;
+    const int n = st->n;
     gvi_real *H = st->in.lagrangian.hessian;
     int column;
     at->v = v;
@@ -4654,8 +4654,7 @@ GVI__OFFERED gvi_status gvi__factor_hessian(gvi_stepper *st, gvi_points *at, gvi
     if (status != GVI_OK) return status;
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j < i; ++j) H[i*n + j] = H[j*n + i] = H[i*n + j]/2 + H[j*n + i]/2;
-        if (none && gvi__nonzero(H[i*n + i]))
-            st->in.watch.scale[i] = 1/GVI_SQRT(GVI_ABS(H[i*n + i]));
+        if (gvi__nonzero(H[i*n + i])) st->in.watch.scale[i] = 1/GVI_SQRT(GVI_ABS(H[i*n + i]));
     }
     status = gvi__lu_factor(n, H, H + n*n, &column);
     if (status == GVI_E_SINGULAR)
