@@ -6633,12 +6633,11 @@ GVI__COLD gvi_real gvi__combine(const gvi_stepper *st, int S, int i, const gvi_r
 {
     const int m = st->in.con.m;
     gvi_real *c = st->in.con.y, sum = 0;
+    gvi__zero((size_t)i, c);
     c[i] = 1;
-    for (int l = i; l-- > 0; ) {
-        c[l] = 0;
-        for (int j = l + 1; j <= i; ++j)
-            if ((int)st->in.con.first[j] <= l) c[l] -= A[(j*m + l)*S]*c[j];
-        sum += c[l]*c[l]*gvi__entry(st, S, l, A);
+    for (int j = i; j >= 0; --j) {
+        for (int l = (int)st->in.con.first[j]; l < j; ++l) c[l] -= A[(j*m + l)*S]*c[j];
+        if (j < i) sum += c[j]*c[j]*gvi__entry(st, S, j, A);
     }
     return sum;
 }
@@ -7319,7 +7318,7 @@ GVI__CALLED gvi_status gvi__check_rank(gvi_stepper *st, int margin)
     for (int a = 0; a < m; ++a) {
         gvi_real lost = 0;
         for (int l = (int)st->in.con.first[a]; l < a; ++l) lost += A[a*m + l]*A[l*m + a];
-        if (!(lost*A[a*m + a]*(gvi_real)m > most)) continue;
+        if (margin == 1 && !(lost*A[a*m + a]*(gvi_real)m > most)) continue;
         const gvi_real all = (lost + gvi__combine(st, 1, a, A))*A[a*m + a];
         if (!(all > most)) continue;
         if (margin > 0) return gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
