@@ -4553,7 +4553,7 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
             } else if (at_rest && target > 0 && moved > 16*target) {
                 next = d*(target/moved);
             } else if (moved < target/2 && GVI_ABS(d)/GVI_SQRT(root) < edge) {
-                next = d/GVI_SQRT(root);
+                next = d*gvi__smaller(target/moved, 1/GVI_SQRT(root));
             } else break;
             if (!gvi__nonzero(next)) break;
         }
@@ -4642,10 +4642,10 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
 }
 
 /* d2L/dv2 at one point and its LU, to lagrangian.hessian; symmetric, which its differences are not.
-   Where effects alone make the mass, it is known now, at rest as well.                        */
+   What effects add to the mass, which may grow with v, is known now, at rest as well.         */
 GVI__OFFERED gvi_status gvi__factor_hessian(gvi_stepper *st, gvi_points *at, gvi_real *v)
 {
-    const int n = st->n, none = st->in.desc.mass.kind == GVI_MASS_NONE;
+    const int n = st->n;
     gvi_real *H = st->in.lagrangian.hessian;
     int column;
     at->v = v;
@@ -4654,8 +4654,7 @@ GVI__OFFERED gvi_status gvi__factor_hessian(gvi_stepper *st, gvi_points *at, gvi
     if (status != GVI_OK) return status;
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j < i; ++j) H[i*n + j] = H[j*n + i] = H[i*n + j]/2 + H[j*n + i]/2;
-        if (none && gvi__nonzero(H[i*n + i]))
-            st->in.watch.scale[i] = 1/GVI_SQRT(GVI_ABS(H[i*n + i]));
+        if (gvi__nonzero(H[i*n + i])) st->in.watch.scale[i] = 1/GVI_SQRT(GVI_ABS(H[i*n + i]));
     }
     status = gvi__lu_factor(n, H, H + n*n, &column);
     if (status == GVI_E_SINGULAR)
@@ -6629,19 +6628,31 @@ static gvi_real gvi__entry(const gvi_stepper *st, int S, int j, const gvi_real *
     return entry;
 }
 
-/* Row i depends: c G = 0, c the row of L^-1.  The row to leave out is the one with the largest part
-   in that: without one whose part is 0, as at some angles of a linkage, the others still depend.
-   The last, unless another's is twice as large: rows that change often cost digits.           */
-GVI__COLD int gvi__spare(const gvi_stepper *st, int S, int i, gvi_real entry, const gvi_real *A)
+/* c := row i of L^-1, to con.y: of all c G with c_i = 1 that of the rows before i which leaves the
+   least.  Returns what these put into it, the sum of c_l^2 G_l M^-1 G_l', l < i.              */
+GVI__COLD gvi_real gvi__combine(const gvi_stepper *st, int S, int i, const gvi_real *A)
 {
     const int m = st->in.con.m;
-    gvi_real *c = st->in.con.y, most = 4*entry;
-    int spare = i;
+    gvi_real *c = st->in.con.y, sum = 0;
+    gvi__zero((size_t)i, c);
     c[i] = 1;
+    for (int j = i; j >= 0; --j) {
+        for (int l = (int)st->in.con.first[j]; l < j; ++l) c[l] -= A[(j*m + l)*S]*c[j];
+        if (j < i) sum += c[j]*c[j]*gvi__entry(st, S, j, A);
+    }
+    return sum;
+}
+
+/* Row i depends: c G = 0.  The row to leave out is the one with the largest part in that: without
+   one whose part is 0, as at some angles of a linkage, the others still depend.  The last, unless
+   another's is twice as large: rows that change often cost digits.                            */
+GVI__COLD int gvi__spare(const gvi_stepper *st, int S, int i, gvi_real entry, const gvi_real *A)
+{
+    const gvi_real *c = st->in.con.y;
+    gvi_real most = 4*entry;
+    int spare = i;
+    (void)gvi__combine(st, S, i, A);
     for (int l = i; l-- > 0; ) {
-        c[l] = 0;
-        for (int j = l + 1; j <= i; ++j)
-            if ((int)st->in.con.first[j] <= l) c[l] -= A[(j*m + l)*S]*c[j];
         const gvi_real part = c[l]*c[l]*gvi__entry(st, S, l, A);
         if (!(part > most)) continue;
         most = part;
@@ -7293,23 +7304,26 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
                        : gvi__report_row(st, GVI_E_CONSTRAINT, refused, GVI_FAULT_NONE);
 }
 
-/* A row of which the rows before it leave less than half of the digits, and more than rounding, is
-   about to depend on them: the rank changes, a change point of a linkage.  Its multiplier is noise
-   over what is left, more of it the shorter a step is, so no h mends it.  Rows that were that near
-   where the motion started may stay so.  From gram1; `margin`: where a step has failed, that much
-   earlier, by a third of the digits; 0: a start, to be remembered.                            */
+/* A combination of rows that leaves less than half of the digits of its terms, and more than
+   rounding, is about to vanish: the rank changes, a change point of a linkage.  Its multiplier is
+   noise over what is left, more of it the shorter a step is, so no h mends it.  Against all terms,
+   not those of one row, it is the same in every frame.  Rows that were that near where the motion
+   started may stay so.  From gram1; `margin`: where a step has failed, that much earlier, by a
+   third of the digits; 0: a start, to be remembered.                                          */
 GVI__CALLED gvi_status gvi__check_rank(gvi_stepper *st, int margin)
 {
     const int m = st->in.con.m;
-    const gvi_real *A = st->in.con.gram1, root = GVI_SQRT(GVI__EPS)*(gvi_real)margin;
-    gvi_real most = 0;
-    if (margin > 0) most = gvi__larger(1/root, GVI__FADES*st->in.con.near_start);
+    const gvi_real *A = st->in.con.gram1, root = GVI_SQRT(GVI__EPS);
+    gvi_real most = 1/(root*GVI__FADES*GVI__FADES);              // less is not asked for
+    if (margin > 0) most = gvi__larger(1/(root*(gvi_real)margin), GVI__FADES*st->in.con.near_start);
     for (int a = 0; a < m; ++a) {
         gvi_real lost = 0;
         for (int l = (int)st->in.con.first[a]; l < a; ++l) lost += A[a*m + l]*A[l*m + a];
-        if (!(lost*A[a*m + a] > most)) continue;
+        if (margin == 1 && !(lost*A[a*m + a]*(gvi_real)m > most)) continue;
+        const gvi_real all = (lost + gvi__combine(st, 1, a, A))*A[a*m + a];
+        if (!(all > most)) continue;
         if (margin > 0) return gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
-        most = lost*A[a*m + a];
+        most = all;
     }
     if (margin == 0) {
         st->in.con.near_start = most;
@@ -8510,7 +8524,8 @@ GVI__CALLED gvi_status gvi__con_end(gvi_stepper *st)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, C = in->con.C;
-    gvi_real *c = in->con.y, *now = in->answer, *next = now + n;
+    const gvi_real *c = in->con.y;
+    gvi_real *now = in->answer, *next = now + n;
     const gvi_points at = gvi__points_at(st, st->r, in->R, in->t, in->work.Q, NULL, NULL);
     gvi_status status = GVI_OK;
 
@@ -8524,10 +8539,9 @@ GVI__CALLED gvi_status gvi__con_end(gvi_stepper *st)
         gvi_real all = 0;
         if (!(gvi__loss(st, j, e) > GVI__LOST*GVI__LOST - 1)) continue;
         gvi__zero(2*(size_t)n, now);
+        (void)gvi__combine(st, C, j, A);
         for (int l = j; l >= 0; --l) {
             const gvi_real *G = in->con.G + l*n*C + e;
-            c[l] = (gvi_real)(l == j);
-            for (int i = l + 1; i <= j; ++i) c[l] -= A[(i*m + l)*C]*c[i];
             for (int i = gvi__column(st, l, 0); i < n; i = gvi__column(st, l, i + 1)) {
                 now[i] += c[l]*G[i*C];
                 next[i] += c[l]*G[i*C + 1];

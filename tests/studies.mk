@@ -327,7 +327,7 @@ ablate: | $(FIRST)
 
 # -- hard cases and theorems, measured
 
-HARD     = rope random dial measure rest lucky constraints constraints-float eccentric flyby roots eccentric-float pythagorean corners corners-float stiff long long-float brouwer brouwer-float walk drift rolling
+HARD     = rope refused random dial measure rest lucky constraints constraints-float eccentric flyby roots eccentric-float pythagorean corners corners-float stiff long long-float brouwer brouwer-float walk drift rolling
 ORDERS   = order rules constant counterexample lagrangian curve forced
 THEOREMS = spectral inertia stability modified
 # Orders need more digits than long double has on x86.
@@ -343,7 +343,7 @@ $(BUILD)/hard/% $(BUILD)/theorems/%: tests/$$(notdir $$(@D))/$$*.c | $(FIRST)
 	@mkdir -p $(@D)
 	$(Q)$(COMPILE) $(TESTFLAGS) $< -o $@ $(LDLIBS)
 
-#: hard         hard cases at length, docs/hard-cases.md (twelve minutes); one: make hard-drift; SEED=11: other random numbers;
+#: hard         hard cases at length, docs/hard-cases.md (fifteen minutes); one: make hard-drift; SEED=11: other random numbers;
 #:              make hard-random RANDOM_SECONDS=3600: random scenes of all kinds for an hour; hard-random-float.  Not in long
 #:              double: that is what the references compute in
 hard: $(HARD:%=hard-%)

@@ -1204,6 +1204,30 @@ TEST(multipliers_of_random_states)
     }
 }
 
+/* L = v^2/2 + v_0^4/40 + 8 q_1 v_0 on q_0 = q_1: v stays, lambda is 8 v */
+static int in_a_field(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    dldv[0] += v[0]*v[0]*v[0]/10 + 8*q[1];
+    f[1] += 8*v[0];
+    return (void)t, (void)user, 0;
+}
+
+GVI_EACH(side_by_side, 2, rows(1)) { x->g[0] = x->q[0] - x->q[1]; x->jacobian[0] = 1; x->jacobian[1] = -1; }
+
+TEST(multipliers_where_the_momentum_is_not_the_masses)
+{
+    const gvi_effect scene[] = { { .kind = GVI_LAGRANGIAN, .point = in_a_field },
+                                 { .kind = GVI_CONSTRAINT, .points = side_by_side, .rows = 1 } };
+    const gvi_desc desc = { .n = 2, .degree = 4, .effects = scene, .effect_count = 2 };
+    for (int k = 1; k <= 64; k *= 2) {
+        const real q[] = { k, k }, v[] = { 1, 1 };
+        gvi_stepper st = new_motion(&desc, 0, q, v);
+        real lambda;
+        assert_ok(gvi_multipliers(&st, &lambda));
+        assert_close(lambda, 8, 1024*EPS*(real)k*8);
+    }
+}
+
 GVI_EACH(waving, 2, rows(1))                      /* q_1 = sin(w t) cos q_0 */
 {
     const real w = *(const real *)user, s = sin(w*x->t[0]), c = cos(x->q[0]);

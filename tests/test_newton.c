@@ -425,6 +425,45 @@ TEST(no_step_is_another_motions)
 
 HESSIAN(wrong_hessian) { return fq[0] -= *(const real *)user, 0; }
 
+/* L = v^2/2 + u v^4/4 + b q_1 v_0 - k q^2/2, user: u, b, k */
+static int heavier_with_v(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    const real *a = user;
+    for (int i = 0; i < 2; ++i) {
+        dldv[i] += a[0]*v[i]*v[i]*v[i];
+        f[i] -= a[2]*q[i];
+    }
+    dldv[0] += a[1]*q[1];
+    f[1] += a[1]*v[0];
+    return (void)t, 0;
+}
+
+/* Two of 60,000 random steps of up to 20 radians: iterations left for where v^3 is all, an inertia that is not that of v
+   took v^3 for rounding there, and the steps ended beyond 1e7.  The energy bounds q, and four times that a coarse step. */
+TEST(a_mass_may_grow_with_v)
+{
+    static const struct { int degree; double h, a[3], q[2], v[2]; } steps[] = {
+        { 5, 1.7546501661905323, { 0.74016879116743628, -0.11757691303155249, 70.154765525836552 },
+          { 0.50470296456697539, 0.54582082552175071 }, { 0.018411826816579158, -0.77828546882527205 } },
+        { 7, 2.0852180846432309, { 0.72888878890151565, -0.7471216184772187, 85.078697549095736 },
+          { -0.41667416105823318, 0.62300269381282969 }, { 0.19667644016289909, 0.23237246052938154 } } };
+    for (int k = 0; k < COUNT(steps); ++k) {
+        const double *A = steps[k].a;
+        real a[] = { (real)A[0], (real)A[1], (real)A[2] }, energy = 0, q[2], v[2];
+        for (int i = 0; i < 2; ++i) {
+            q[i] = (real)steps[k].q[i];
+            v[i] = (real)steps[k].v[i];
+            energy += v[i]*v[i]/2 + 3*a[0]*v[i]*v[i]*v[i]*v[i]/4 + a[2]*q[i]*q[i]/2;
+        }
+        const gvi_effect e = { .kind = GVI_LAGRANGIAN, .point = heavier_with_v, .user = a };
+        const gvi_desc desc = { .n = 2, .degree = steps[k].degree, .effects = &e, .effect_count = 1,
+                                .formulation = GVI_NEWTON };
+        gvi_stepper st = new_motion(&desc, 0, q, v);
+        if (gvi_step(&st, (real)steps[k].h) != GVI_OK) continue;
+        assert_between(0, (st.q[0]*st.q[0] + st.q[1]*st.q[1])*a[2]/2, 4*energy);
+    }
+}
+
 /* f = -q, with -K as its derivative: K of 1e10 makes changes that are small, and the solution is not near */
 TEST(a_wrong_hessian_costs_iterations_or_the_step)
 {

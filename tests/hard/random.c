@@ -103,13 +103,20 @@ static void draw_scene(scene *z, L t, const L *q)
 
 static L norm(int n, const L *x) { L y = 0; for (int i = 0; i < n; ++i) y = fmaxl(y, fabsl(x[i])); return y; }
 
+/* Below the least inertia, at most 1 */
+static double lightest(const scene *z)
+{
+    double least = 1;
+    for (int i = 0; i < z->n; ++i)
+        least = fmin(least, (z->mass == GVI_MASS_NONE ? z->own[i] : z->mass == GVI_MASS_UNIT ? 1 : (double)z->m[i])/2);
+    return least;
+}
+
 /* About the fastest frequency at speed v and distance q */
 static double frequency(const scene *z, double q, double v)
 {
-    double square = 0, field = 0, least = 1;
+    double square = 0, field = 0, least = lightest(z);
     for (int i = 0; i < z->n; ++i) {
-        const double m = z->mass == GVI_MASS_NONE ? z->own[i] : z->mass == GVI_MASS_UNIT ? 1 : (double)z->m[i];
-        least = fmin(least, m/2);
         square += fabs(z->k[i]) + 2*fabs(z->a[i]) + fabs(z->turn[i]);
         field += fabs(z->c[i])*q + fabs(z->b[i]) + fabs(z->e[i])*q + fabs(z->d[i]) + fabs(z->r[i])*v + fabs(z->drag[i])
                + 2*fabs(z->air[i])*(1 + v);
@@ -212,7 +219,7 @@ static void ask_queries(gvi_stepper *st, const scene *z, const L *y0, L t0, cons
     velocity_of(z, (L)st->t + st->t_low, y1, y1 + n, V);
     if (gvi_velocity(st, v) != GVI_OK) report(MOTION, NAN, "gvi_velocity", st, z);
     for (int i = 0; i < n; ++i) x[i] = v[i];
-    report(MOTION, (double)(far_off(n, x, V)/unit/(1 + norm(n, V))), "velocity", st, z);
+    report(MOTION, (double)(far_off(n, x, V)/unit/(1/lightest(z) + norm(n, V))), "velocity", st, z);      /* p over M */
     if (gvi_energy(st, &energy) != GVI_OK) report(MOTION, NAN, "gvi_energy", st, z);
     all_sums(z, (L)st->t + st->t_low, y1, V, &s);
     L H = 0, size = 1, kinetic = 0, matrix[N*N];

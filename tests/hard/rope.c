@@ -6,38 +6,10 @@
    nor, without friction, fall: the table shows the largest |E - E0|, which the fall of the rope makes comparable.
 
      rope [seconds, 10] [beads, 60]                                                                                    */
-#include "hard.h"
+#include "rope.h"
 
-enum { MOST = 60, ROOM = 40000000, FRAMES = 60, PARTS = 4, DEEPEST = 10 };
-static const real rod = (real)0.05, bead = (real)0.02, weight_of = (real)9.81;
+enum { FRAMES = 60, PARTS = RATE/FRAMES };
 static real *room;
-static int beads = MOST;
-
-static int rods(const gvi_points *x, void *user)
-{
-    const int R = x->stride;
-    for (int a = 0; a < beads; ++a)
-        for (int k = 0; k < x->count; ++k) {
-            const real *q = x->q + 2*a*R + k, X = q[0] - (a ? q[-2*R] : 0), Y = q[R] - (a ? q[-R] : 0);
-            real *G = x->jacobian + (a*x->n + 2*a)*R + k;
-            x->g[a*R + k] = (X*X + Y*Y - rod*rod)/2;
-            G[0] = X;
-            G[R] = Y;
-            if (a) G[-2*R] = -X;
-            if (a) G[-R] = -Y;
-        }
-    return (void)user, 0;
-}
-
-static int weight(const gvi_points *x, void *user)
-{
-    for (int i = 1; i < x->n; i += 2)
-        for (int k = 0; k < x->count; ++k) {
-            if (x->f) x->f[i*x->stride + k] -= bead*weight_of;
-            if (x->value) x->value[k] += bead*weight_of*x->q[i*x->stride + k];
-        }
-    return (void)user, 0;
-}
 
 typedef struct run { int refused, steps, failed; double off, worst, sum, end; } run;
 
@@ -66,20 +38,10 @@ static gvi_status frame(gvi_stepper *st, int k, int dial, run *r)
 
 static run rope(int degree, real resolution, int dial, double seconds)
 {
-    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = weight, .value = weight },
-                                        { .kind = GVI_CONSTRAINT, .points = rods, .rows = MOST } };
-    gvi_effect effects[] = { scene[0], scene[1] };
-    real mass[2*MOST], q[2*MOST] = { 0 }, v[2*MOST] = { 0 }, E0, E;
-    for (int i = 0; i < 2*beads; ++i) mass[i] = bead;
-    for (int i = 0; i < beads; ++i) q[2*i] = rod*(real)(i + 1);
-    effects[1].rows = beads;
-    const gvi_desc desc = { .n = 2*beads, .degree = degree, .rule = { .kind = degree == 1 ? GVI_LOBATTO : GVI_GAUSS },
-                            .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = mass }, .effects = effects,
-                            .effect_count = 2, .resolution = resolution };
+    real E0, E;
     run r = { 0 };
     gvi_stepper st;
-    must(gvi_init(&st, &desc, room, ROOM));
-    must(gvi_start(&st, 0, q, v));
+    hang(&st, degree, resolution, room);
     must(gvi_energy(&st, &E0));
     const int frames = (int)(seconds*FRAMES);
     for (int k = 0; k < frames && !r.failed; ++k) {
