@@ -12,12 +12,13 @@ export const EXAMPLES = new Function(`return ${/const EXAMPLES = (\{[^]*?\n\});/
 
 /* What own_take is given, and what own_room holds then. */
 export function handedOver(text) {
-  const r = lagrange(text), room = new Float64Array(2454);
+  const r = lagrange(text), room = new Float64Array(2455);
   r.steps.forEach((s, k) => room.set(s, 4*k));
   room.set([...r.q, ...r.v], 2400);
   room.set(r.draw, 2416);
   room.set(r.names.map((_, i) => r.force[i] ?? -1), 2440);
   room.set([r.holds.length + r.rolls.length, r.rolls.length, ...r.holds, ...r.rolls], 2448);
+  room[2454] = +r.momenta;
   return { r, room, given: [r.n, r.length, r.steps.length, r.draw.length/2, r.end] };
 }
 
@@ -178,13 +179,14 @@ function test(wasm, build) {
     const r = take(typed), more = [[r.force, 'FORCE, .points = force'], [r.holds, `CONSTRAINT, .points = holds, .rows = ${r.holds.length}`], [r.rolls, `NONHOLONOMIC, .points = rolls, .rows = ${r.rolls.length}`]]
       .flatMap(([list, effect]) => list.length ? `, { .kind = GVI_${effect} }` : []), source = join(build, 'typed.c'), binary = join(build, 'typed'), steps = 2000;
     const chaos = name === 'a double pendulum' || name === 'a pendulum on a cart' ? 1e-10 : 1e-12, span = Math.min(r.end, 5);
-    writeFileSync(source, `#include "tools/lagrangian.h"\n${r.c}\nint main(void)\n{\n    static double memory[1 << 17];\n    static lagrangian L;\n    const double q[] = { ${r.q} }, v[] = { ${r.v} };
-    const char *wrong = lagrangian_init(&L, own, NULL, 0, q, v);\n    const gvi_effect effect[] = { lagrangian_effect(&L)${more.join('')} };\n    const gvi_desc desc = { .n = ${r.n}, .degree = 4, .mass = lagrangian_mass(&L), .effects = effect, .effect_count = ${1 + more.length} };
-    gvi_stepper st;\n    if (wrong) return puts(wrong), 1;\n    gvi_init(&st, &desc, memory, sizeof memory);\n    gvi_start(&st, 0, q, v);\n    for (int k = 0; k < ${steps}; ++k) gvi_step(&st, ${span}.0/${steps});\n    for (int i = 0; i < ${r.n}; ++i) printf("%.17g\\n", st.q[i]);\n    puts(lagrangian_text(&L));\n    return st.status;\n}\n`.replace(/(\.\d+)\.0\//, '$1/'));
+    const kind = r.momenta ? 'hamiltonian' : 'lagrangian';
+    writeFileSync(source, `#include "tools/lagrangian.h"\n${r.c}\nint main(void)\n{\n    static double memory[1 << 17];\n    static ${kind} L;\n    const double q[] = { ${r.q} }, v[] = { ${r.v} };
+    const char *wrong = ${kind}_init(&L, own, NULL, 0, q, v);\n    const gvi_effect effect[] = { ${kind}_effect(&L)${more.join('')} };\n    const gvi_desc desc = { .n = ${r.n}, .degree = 4, .mass = ${kind}_mass(&L), .effects = effect, .effect_count = ${1 + more.length}, .formulation = ${r.momenta ? 'GVI_MOMENTA' : 0} };
+    gvi_stepper st;\n    if (wrong) return puts(wrong), 1;\n    gvi_init(&st, &desc, memory, sizeof memory);\n    ${r.momenta ? 'gvi_start_momentum' : 'gvi_start'}(&st, 0, q, v);\n    for (int k = 0; k < ${steps}; ++k) gvi_step(&st, ${span}.0/${steps});\n    for (int i = 0; i < ${r.n}; ++i) printf("%.17g\\n", st.q[i]);\n    puts(${r.momenta ? '"Hamilton\'s equations"' : 'lagrangian_text(&L)'});\n    return st.status;\n}\n`.replace(/(\.\d+)\.0\//, '$1/'));
     try {
       cc('-Wall', '-Wextra', '-Wpedantic', '-Wconversion', '-Werror', source, library, '-o', binary, '-lm');
-      const said = execFileSync(binary, { encoding: 'utf8' }).trim().split('\n'), kind = said.pop(), q = said.map(Number), here = end(OWN, 2 ** (1 + more.length) - 1, span/steps, span), off = far(here, q);
-      check(`${name}: the C ends where the page does`, !r.why && kind === r.kind && off < chaos*Math.max(1, ...q.map(Math.abs)), r.why, kind, off, q, here);
+      const said = execFileSync(binary, { encoding: 'utf8' }).trim().split('\n'), what = said.pop(), q = said.map(Number), here = end(OWN, 2 ** (1 + more.length) - 1, span/steps, span), off = far(here, q);
+      check(`${name}: the C ends where the page does`, !r.why && what === r.kind && off < chaos*Math.max(1, ...q.map(Math.abs)), r.why, what, off, q, here);
     } catch (e) { check(`${name}: the C compiles`, false, e.message, r.c); }
   }
   console.log(`playground: Lagrangians typed, ${passed} passed, ${failed} failed`);
