@@ -29,7 +29,7 @@ function lagrange(text) {
     throw Error(`Line ${lines.length}, column ${lines.pop().length + 1}: ${what}.`);
   };
   const seen = re => {                                   /* the next token, if it is of this kind */
-    const [space] = /^(\s|#.*)*/.exec(text.slice(at));
+    const [space] = /^(\s|(#|%|\/\/).*)*/.exec(text.slice(at));
     at += space.length;
     fresh ||= space.includes('\n');
     return (re.exec(text.slice(at)) || [])[0];
@@ -47,6 +47,7 @@ function lagrange(text) {
     return name;
   }
   const found = () => seen(/^./) ? `"${seen(/^(\w+|.)/u)}"` : 'the end';
+  const SQUARE = 'brackets are ( and ), coordinates q1 and q2, not q[0] and q[1]';
   const need = (sign, why) => take(RegExp('^\\' + sign)) || stop(`"${sign}" is missing before ${found()}${why || ''}`);
 
   /* [sign or function, operands], ['number', value] or ['name', name, before a bracket?, place] */
@@ -61,14 +62,14 @@ function lagrange(text) {
     if (take(/^\(/)) { const inside = sum(); need(')'); return inside; }
     seen(/^./);
     const place = at, name = word();
-    if (!name) stop(/^["][[{]/.test(found()) ? 'brackets are ( and ), coordinates q1, q2 and so on' : text[at] === '\\' ? "this is not read: a velocity is x', a root sqrt(x), a fraction a/b" : `a number, a name or "(" belongs here, not ${found()}`);
+    if (!name) stop({ '[': SQUARE, '{': SQUARE, '|': '|x| has a kink, and L and H have to be smooth', '\\': "LaTeX is not read: a velocity is x', a root sqrt(x), a fraction a/b" }[text[at]] || `a number, a name or "(" belongs here, not ${found()}`);
     if (!MATHS[name] && !MADE_OF[name] && name !== 'pow') {
       if (take(/^\(\s*t\s*\)/)) return ['name', name, , place];
       if (seen(/^\(\s*[\p{L}\d][^()+*/-]*\)/u)) noFunction(name, place);
       return ['name', name, !!seen(/^\(/), place];
     }
     const raised = take(/^(\^|\*\*)/) ? [N(+must(/^-?\d+/, 'a whole number belongs here'))] : raisedBy();
-    if (!seen(/^\(/)) stop(`${name} needs parentheses: ${name}(x)`, place);
+    if (!seen(/^\(/)) stop(`${name} needs parentheses: ${name}(${seen(MARKED) || 'x'})`, place);
     need('(');
     const inside = sum();
     if (name !== 'pow') return need(')'), raised ? ['^', [name, inside], raised[0]] : [name, inside];
@@ -91,15 +92,17 @@ function lagrange(text) {
   /* what stands beside it on the same line is a factor, unless it begins a line of its own, as x(0) = does */
   const beside = () => seen(/^./) && !fresh && /^[\p{L}√(½]/u.test(text.slice(at)) && !/^\p{L}[\p{L}\w\u2080-\u2089\u0307\u0308]*['’′]*\s*(\([^()]*\)\s*)?=/u.test(text.slice(at)) && '*';
   function product() {
-    let left = signed(), divided = false;
+    let left = signed(), below = 0;                      /* the line: the place behind a / */
     for (;;) {
       const given = take(/^[*/\u00b7\u00d7\u22c5\u2217]/), sign = given ? given.replace(/[^*/]/, '*') : beside();
       if (!sign) return left;
       const factor = seen(/^(\(|\p{L}[\p{L}\d]*)/u), half = left[0] === '/' && left[1][0] === 'number' && left[2][0] === 'number' && factor === '(';
-      if (divided && !given && !half && !/\s/.test(text[at - 1]))
-        stop(`is ${factor === '(' ? 'the bracket' : factor} below the line or not? Write /(a b) or /a*b`);
+      if (below && !given && !half && !/\s/.test(text[at - 1])) {
+        const a = text.slice(below, at).trim(), b = factor === '(' ? '(...)' : factor;
+        stop(`is ${b} below the line? If so, /(${a} ${b}), else /${a}*${b}`);
+      }
+      below = sign === '/' && at;
       left = [sign, left, signed()];
-      divided = sign === '/';
     }
   }
   function sum() {
@@ -115,7 +118,7 @@ function lagrange(text) {
     read = new Set();
     const place = at, row = take(/^0(?=\s*=)/) && rows.push(`0 ${rows.length}`), given = row ? rows[row - 1] : word();
     const zero = !row && take(/^\(\s*0\s*\)/), name = given + (zero ? '(0)' : '');
-    if (!given) stop(/^\d/.test(text.slice(at)) && /\d,$/.test(text.slice(0, at)) ? 'a number has a point, not a comma' : `a line begins with a name, not with ${found()}`);
+    if (!given) stop(/^\d/.test(text.slice(at)) && /\d,$/.test(text.slice(0, at)) ? 'a number has a point, not a comma' : text[at] === '[' ? SQUARE : `a line begins with a name, not with ${found()}`);
     const of = take(/^\([^()]*\)(?=\s*=)/);                /* H(q, p) = ... */
     if (of && !/^[LH]$/.test(given) && !/^\(\s*t\s*\)$/.test(of)) stop(`a line has no arguments: ${given} = ..., and a start is ${given}(0)`, place);
     if (!take(/^=/)) stop(lines.size ? `a sign such as * is missing before "${given}", or "=" after it` : `"=" is missing after ${name}`, place);
@@ -182,7 +185,7 @@ function lagrange(text) {
     stop(other ? `${typed} is a ${kindOf}, and ${takes}: ${rateOf(other)}${momenta ? '' : ` or ${other}'`}`
       : name === letter ? `${name} is not known: of which coordinate? ${names.map(rateOf).join(', ')}`
       : name === 'e' ? 'e is not known: write exp(x) for e^x' : names.some(a => 'd' + a === name) ? `${typed} is not known: the derivative of x is x'`
-      : apart ? `${typed} is not known: is it ${apart}, with spaces?`
+      : apart ? `${typed} is not known; with spaces it is ${apart}`
       : called ? noFunction(name, place) : `${typed} is not known; a coordinate has a start, ${base}(0) = ..., anything else a line of its own`, place);
   }
   function valueOf(name, place, called) {
@@ -214,6 +217,7 @@ function lagrange(text) {
     return isFinite(c) ? c : stop(`${name} has to be a number: ${c === undefined ? 'it depends on what moves' : 'it is not finite'}`, places.get(name));
   };
   const result = a => a <= 2 * n ? step(3, a, slot({ c: 1 }), 0) : a, length = result(slot(valueOf(whole))) - 2 * n;
+  if (momenta && !quick.has(length + 2 * n)) stop(`H depends on no momentum: that of ${names[0]} is ${rateOf(names[0])}`, places.get('H'));
   const used = made.slice(0, -1), forced = names.map(a => n > 1 || lines.has('F' + a) ? 'F' + a : 'F').map(a => lines.has(a) && !used.includes(a) && a);
   for (const a of forced) if (a && momenta) stop(`${a} is a force, and needs L: with H there is none`, places.get(a));
   const force = forced.map(a => a ? slot(valueOf(a)) : -1), at0 = rows.map(a => {

@@ -158,7 +158,7 @@ function put(r) {
 function own(typed) {
   let r;
   try { r = lagrange(typed); } catch (e) { return e.message; }
-  const why = put(r).replace(/([LH])\/(\S+) is +by numbers.*/, '$1/$2 is not what differences show: $1 is not smooth near the start').replace(/; give H.*HAMILTONIAN/, '; type H = ... in its place');
+  const why = put(r).replace(/([LH])\/(\S+) is +by numbers.*/, '$1/$2 is not what differences show: $1 is not smooth near the start').replace(/; give H.*HAMILTONIAN/, '; type H = ... in its place').replace(/as a row, by HOLDS.*/, 'as a line 0 = ...');
   if (why) { if (good) put(good); return why.replace(/q\[(\d)]/g, (_, i) => r.names[i]).replace(/v\[(\d)]/g, (_, i) => speedOf(r.names[i])).replace(/p\[(\d)]/g, (_, i) => momentumOf(r.names[i])) + '.'; }
   good = r;
   for (const [key, p] of problems) if (p.o.scene === mine.i) problems.delete(key);
