@@ -1,11 +1,12 @@
 /* lagrangian.js - what is typed as L or H: to operations for own.h, and to C for lagrangian.h.
 
-   lagrange(text) gives { names, n, q, v, momenta, steps, length, draw, rods, force, holds, rolls, end, timed, c }, or
+   lagrange(text) gives { names, n, q, v, momenta, kind, steps, length, draw, rods, force, holds, rolls, end, timed, c }, or
    throws an Error that names line and column.  The text: name = value or expression; L = ... or H = ...; x(0) = value
    makes x a coordinate, whose velocity in L is vx or x' (of q1: v1), and whose momentum in H is px (of q1: p1), in v of
-   the result; Fx = ... is a force on it; 0 = ... a constraint, or a rolling one where it has velocities; end = value;
+   the result; kind = MASS says what L is, where it looks simpler near the start; Fx = ... is a force on it; 0 = ... a constraint, or a rolling one where it has velocities; end = value;
    draw = (x, y) (x, y), (x, y): what stands together is joined.  2 x, sin^2(x), ½ m ẋ², x_1 are read as on paper. */
 const MATHS = { __proto__: null, sqrt: Math.sqrt, exp: Math.exp, log: Math.log, sin: Math.sin, cos: Math.cos, tan: Math.tan, atan: Math.atan };
+const KINDS = ['', 'POTENTIAL', 'LINEAR', 'MASS', 'MASS_LINEAR', 'GENERAL'];
 const SIGNS = '?+-*/^';                                  /* their numbers, and after them MATHS: own.h */
 const N = c => ['number', c], EXP = a => ['exp', a];
 const MADE_OF = { __proto__: null,                                        /* by the others */
@@ -36,7 +37,7 @@ function lagrange(text) {
   };
   const take = re => { const word = seen(re); if (word) at += word.length, fresh = false; return word; };
   const NAME = /^(\p{L}[\p{L}\d\u2080-\u2089_\u0307\u0308]*|√)/u, MARKED = RegExp(NAME.source + "['’′]*", 'u');
-  let read = new Set();                                  /* names on this line */
+  let read = new Set(), kind = 0;                        /* names on this line */
   /* a name as C has it: x', ẋ and xdot are the velocity of x */
   function word() {
     const typed = take(MARKED) || '', marks = plain(typed).replace(/[^\u0307\u0308'’′]/g, '').replace(/\u0308/g, "''").length, bare = spelled(typed), stem = bare.replace(/^(.+)dot(\d*)$/, '$1$2');
@@ -119,6 +120,11 @@ function lagrange(text) {
     const place = at, row = take(/^0(?=\s*=)/) && rows.push(`0 ${rows.length}`), given = row ? rows[row - 1] : word();
     const zero = !row && take(/^\(\s*0\s*\)/), name = given + (zero ? '(0)' : '');
     if (!given) stop(/^\d/.test(text.slice(at)) && /\d,$/.test(text.slice(0, at)) ? 'a number has a point, not a comma' : text[at] === '[' ? SQUARE : `a line begins with a name, not with ${found()}`);
+    if (given === 'kind' && seen(/^=\s*[A-Z_]{4,}\b/)) {
+      take(/^=/);
+      if ((kind = KINDS.indexOf(take(/^\w+/))) < 0) stop(`a kind is ${KINDS.slice(1).join(', ')}`, place);
+      continue;
+    }
     const of = take(/^\([^()]*\)(?=\s*=)/);                /* H(q, p) = ... */
     if (of && !/^[LH]$/.test(given) && !/^\(\s*t\s*\)$/.test(of)) stop(`a line has no arguments: ${given} = ..., and a start is ${given}(0)`, place);
     if (!take(/^=/)) stop(lines.size ? `a sign such as * is missing before "${given}", or "=" after it` : `"=" is missing after ${name}`, place);
@@ -157,6 +163,7 @@ function lagrange(text) {
   if (rows.length > 4) stop('there is room for 4 constraints', places.get(rows[4]));
   if (!lines.has(whole)) stop('"L = ..." or "H = ..." is missing');
   if (both && !momenta && !leads('L', 'H')) stop('both L and H are given, and either makes the motion: leave one out', places.get('H'));
+  if (momenta && kind) stop('kind says what L is, and here is H');
   if (momenta && rows.length) stop('a constraint needs L: with H there is none', places.get(rows[0]));
 
   /* Operations: the values are t, q, v, then one of each operation. A constant is { c } until one needs it. */
@@ -272,5 +279,5 @@ function lagrange(text) {
   if (acting.length) c += `\n\nGVI_POINTS(force, ${n}, v, f)(const gvi_points *at, void *user)\n{\n${body(acting, [...made], 'double', 'at->')}    return (void)user, 0;\n}`;
   for (const [name, list] of [['HOLDS(holds', holds], ['ROLLS(rolls', rolls]])
     if (list.length) c += `\n\n${name}, ${n}, ${list.length})\n{\n${body(list.map((a, i) => [`row[${i}] = `, a]), [...made], 'number', '')}}`;
-  return { names, q, v, momenta, n, steps, length, draw, rods, force: acting.length ? force : [], holds: places0(holds), rolls: places0(rolls), end, timed: hasTime, c };
+  return { names, q, v, momenta, kind, n, steps, length, draw, rods, force: acting.length ? force : [], holds: places0(holds), rolls: places0(rolls), end, timed: hasTime, c };
 }

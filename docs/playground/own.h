@@ -97,7 +97,7 @@ enum { OWN_CONSTANT, OWN_ADD, OWN_SUBTRACT, OWN_MULTIPLY, OWN_DIVIDE, OWN_POWER,
 
 /* What the page writes: operation, operands, constant; q and v at the start; x, y of the picture; where
    the force on each coordinate is, -1 for none; how many constraints there are, how many of them on
-   velocities, and where they are, those last; 1 for H, whose v is p.                      */
+   velocities, and where they are, those last; -1 for H, whose v is p, or L.kind if it is set. */
 static double own_typed[4*OWN_MOST + 3*LAGRANGIAN_MOST + 2*OWN_POINTS + 2 + OWN_ROWS + 1];
 
 static struct own {
@@ -384,11 +384,13 @@ static const char *own_set(int n, int length, int whole, int points, double span
     own.rolls = (int)rows[1];
     own.holds = (int)rows[0] - own.rolls;
     for (int i = 0; i < own.holds + own.rolls; ++i) own.row[i] = (int)rows[2 + i];
-    own.momenta = rows[2 + OWN_ROWS] > 0;
+    const int kind = (int)rows[2 + OWN_ROWS];
+    own.momenta = kind < 0;
     memset(own.p, 0, sizeof own.p);
     const lagrangian_function typed = { n, own_add };
     if (own.momenta) return hamiltonian_init(&own.H, typed, NULL, 0, start, start + n);
     const char *wrong = lagrangian_init(&own.L, typed, NULL, 0, start, start + n);
+    if (!wrong && kind > 0) own.L.kind = (lagrangian_kind)kind;
     return wrong ? wrong : own_refused(start);
 }
 

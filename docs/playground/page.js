@@ -151,21 +151,24 @@ function put(r) {
   numbers.set(r.draw, room + 2416);
   numbers.set(r.names.map((_, i) => r.force[i] ?? -1), room + 2440);
   numbers.set([r.holds.length + r.rolls.length, r.rolls.length, ...r.holds, ...r.rolls], room + 2448);
-  numbers[room + 2454] = +r.momenta;
+  numbers[room + 2454] = r.momenta ? -1 : r.kind;
   return text(x.own_take(r.n, r.length, r.steps.length, r.draw.length / 2, r.end));
 }
+/* What lagrangian.h says of C, of what is typed here */
+const boxed = why => why.replace(/(d[LH]\/\S+) is +by numbers.*/, '$1 is not what differences show: it is not smooth there').replace(/a derivative of ([LH]) is lost.*/, '$1 is not smooth there')
+  .replace(/; give H.*HAMILTONIAN/, '; type H = ... in its place').replace(/as a row, by HOLDS.*/, 'as a line 0 = ...').replace(/: at t = .*; set L.kind = LAGRANGIAN_(\w+) .*/, '; add the line kind = $1');
 /* Takes what is typed: the sentence that says what is wrong, or ''. What ran before goes on then. */
 function own(typed) {
   let r;
   try { r = lagrange(typed); } catch (e) { return e.message; }
-  const why = put(r).replace(/([LH])\/(\S+) is +by numbers.*/, '$1/$2 is not what differences show: $1 is not smooth near the start').replace(/; give H.*HAMILTONIAN/, '; type H = ... in its place').replace(/as a row, by HOLDS.*/, 'as a line 0 = ...');
+  const why = boxed(put(r));
   if (why) { if (good) put(good); return why.replace(/q\[(\d)]/g, (_, i) => r.names[i]).replace(/v\[(\d)]/g, (_, i) => speedOf(r.names[i])).replace(/p\[(\d)]/g, (_, i) => momentumOf(r.names[i])) + '.'; }
   good = r;
   for (const [key, p] of problems) if (p.o.scene === mine.i) problems.delete(key);
   const still = i => [0, 1].every(k => { const s = r.steps[r.draw[2 * i + k] - 2 * r.n - 1]; return s && !s[0]; });
   const rods = r.rods.filter(a => a[2] > 1), ends = r.rods.map(a => a[0] + a[2] - 1), points = [...Array(r.draw.length / 2).keys()];
   const bits = list => list.reduce((sum, i) => sum | 1 << i, 0);
-  Object.assign(mine, { n: r.n, span: r.end, speed: r.end / 10, bodies: points.length, rods, timed: r.timed, momenta: r.momenta, text: r.c, radius: points.map(i => still(i) ? rods.length ? 4 : 10 : 7),
+  Object.assign(mine, { n: r.n, span: r.end, speed: r.end / 10, bodies: points.length, rods, timed: r.timed, momenta: r.momenta, kind: r.kind, text: r.c, radius: points.map(i => still(i) ? rods.length ? 4 : 10 : 7),
     fixed: bits(points.filter(still)), trails: bits(ends.filter(i => !still(i))), mark: Math.random() });
   mine.effects = effectsOf(mine.i).map(e => ({ ...e, code: e.code.replace('ROWS', e.kind === 5 ? r.rolls.length : r.holds.length) }));
   mine.first = 2 ** mine.effects.length - 1;
@@ -262,7 +265,7 @@ function complain(call, status, more = '', world = 0, why = '') {
   a.hidden = !status;
   if (!status) return;
   const e = status === -9 || status === -10 || status === -11 || status < -13 ? x.world_number(world, 11, 0) : -1;
-  $('alert-text').textContent = `${call}: ${why || text(x.status_text(world, status))}${e >= 0 ? ` (${scene().effects[e].name})` : ''}. ${more}`;
+  $('alert-text').textContent = `${call}: ${why || boxed(text(x.status_text(world, status)))}${e >= 0 ? ` (${scene().effects[e].name})` : ''}. ${more}`;
   $('alert').dataset.status = status;
   $('halve').hidden = why || set.dial || !/^-(8|9|10|14)$/.test(status);
   $('alert-clock').hidden = why || scene().clock < 0 || clocked();
@@ -882,7 +885,7 @@ int main(void)
 ${typed ? `    static ${s.momenta ? 'hamiltonian H' : 'lagrangian L'};
     const char *wrong = ${s.momenta ? 'hamiltonian_init(&H' : 'lagrangian_init(&L'}, own, NULL, 0, q, ${v});
     if (wrong) return puts(wrong), 1;
-` : ''}${on.length ? `    const gvi_effect effects[] = {
+${s.kind ? `    L.kind = LAGRANGIAN_${KINDS[s.kind]};\n` : ''}` : ''}${on.length ? `    const gvi_effect effects[] = {
 ${on.map(e => `        ${e.code},`).join('\n')}
     };
 ` : ''}${kicks && j.rule === 'verlet' ? '    const double nodes[] = { 0, 1 }, weights[] = { 0.5, 0.5 };\n' : kicks ? kicks8() : ''}    gvi_desc desc = { .n = ${s.n}, .degree = ${j.degree},${kicks ? ` .rule = { GVI_KICKS, ${j.rule === 'verlet' ? 2 : 18}, nodes, weights },` : rule}${j.tol ? ` .tolerance = ${j.tol.toExponential(0)},` : ''}${j.dial ? ` .resolution = ${j.dial.toExponential(0)},` : ''}${on.length ? `

@@ -18,7 +18,7 @@ export function handedOver(text) {
   room.set(r.draw, 2416);
   room.set(r.names.map((_, i) => r.force[i] ?? -1), 2440);
   room.set([r.holds.length + r.rolls.length, r.rolls.length, ...r.holds, ...r.rolls], 2448);
-  room[2454] = +r.momenta;
+  room[2454] = r.momenta ? -1 : r.kind;
   return { r, room, given: [r.n, r.length, r.steps.length, r.draw.length/2, r.end] };
 }
 
@@ -195,6 +195,21 @@ function test(wasm, build) {
   check('H: another degree goes on from q and p', x.world_number(1, 30, 0) === here && x.world_number(1, 31, 0) === there);
   check('H: no rule but Gauss, no Verlet', x.world_open(1, OWN, 1, 4, 2, 0, 0) === -1 && /for H the rule is Gauss/.test(words(x.status_text(1, -1))) && !open(OWN, 1) && x.race_begin(1, 1, 0.1, 1) !== 0);
   check('H: what is not finite', /H is not finite at the start/.test(take('H = p^2/2 + log(x)\nx(0) = -1').why));
+
+  /* a bump far from the start: seen, and then said to be M(q) */
+  const bump = "L = x'^2/2 (1 + h^2) - 9.81 exp(-(x - 50)^2)\nh = -2 (x - 50) exp(-(x - 50)^2)\nx(0) = 0, x'(0) = 25\n";
+  take(bump);
+  open(OWN, 1);
+  const stopped = x.world_advance(1, 0.02, 200);
+  check('L that looks simpler at the start: it is stopped', stopped === -9 && /set L.kind = LAGRANGIAN_MASS after/.test(words(x.status_text(1, stopped))), stopped, words(x.status_text(1, stopped)));
+  const curved = take(`${bump}kind = MASS`), over = end(OWN, 1, 0.01, 4), other = end(OWN, 1, 1e-13, 4, 3);
+  check('kind = MASS: the motion by DOP853', curved.kind === "v'M(t,q)v/2 - V(t,q)" && far(over, other) < 1e-9 && over[0] > 90, over, other);
+  for (const [typed, why] of [[`${bump}kind = MASSIVE`, /a kind is POTENTIAL, LINEAR/], ['kind = MASS\nH = p^2/2\nx(0) = 1', /kind says what L is/]]) {
+    let said = '';
+    try { lagrange(typed); } catch (e) { said = e.message; }
+    check(`${JSON.stringify(typed)} is refused`, why.test(said), said);
+  }
+  check('a name like kind', lagrange("kind = 3\nL = kind x'^2/2\nx(0) = 1").kind === 0);
 
   /* with forces: x'' + 2 c x' + x = sin 2t, from rest */
   const c = 0.1, [A, B] = [-3, -4*c].map(a => a/(9 + 16*c*c)), w = Math.sqrt(1 - c*c);
