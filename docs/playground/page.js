@@ -122,14 +122,18 @@ draw = (0, y) (sin(a), y - cos(a))`,
   'H: vortices that leapfrog': `# strengths 1, -1, 1, -1: a vortex at (x, y)
 # has q = x and p = its strength times y
 y1 = p1, y2 = -p2, y3 = p3, y4 = -p4
-H = (log((q1 - q2)^2 + (y1 - y2)^2) - log((q1 - q3)^2 + (y1 - y3)^2)
-  + log((q1 - q4)^2 + (y1 - y4)^2) + log((q2 - q3)^2 + (y2 - y3)^2)
-  - log((q2 - q4)^2 + (y2 - y4)^2) + log((q3 - q4)^2 + (y3 - y4)^2))/(4 pi)
+H = log(d12 d14 d23 d34/(d13 d24))/(4 pi)
 
+d12 = (q1 - q2)^2 + (y1 - y2)^2
+d13 = (q1 - q3)^2 + (y1 - y3)^2
+d14 = (q1 - q4)^2 + (y1 - y4)^2
+d23 = (q2 - q3)^2 + (y2 - y3)^2
+d24 = (q2 - q4)^2 + (y2 - y4)^2
+d34 = (q3 - q4)^2 + (y3 - y4)^2
 q1(0) = 0, q2(0) = 0, q3(0) = 0.5, q4(0) = 0.5
 p1(0) = 0.5, p2(0) = 0.5, p3(0) = 0.5, p4(0) = 0.5
 end = 10
-draw = (q1, y1) (q2, y2), (q3, y3) (q4, y4)`,
+draw = (q1, y1), (q2, y2), (q3, y3), (q4, y4)`,
   'H: a star in a galaxy (Hénon-Heiles)': `H = (px² + py²)/2 + (x² + y²)/2 + x² y - y³/3
 
 x(0) = 0, y(0) = 0.1
@@ -809,7 +813,7 @@ function drawCost() {
     + (good.some(q => q.tol) ? `<li><svg aria-hidden="true">${marker(0, 11, 6, 4, 'fill="var(--card)" stroke="var(--gvi)" stroke-width="1.6"')}</svg>iterated to a tolerance</li>` : '')
     + (good.some(q => q.id === here) ? '<li><svg aria-hidden="true"><circle cx="11" cy="6" r="5" fill="none" stroke="var(--gvi)" stroke-width="2"/></svg>as set now</li>' : '');
   const left = (p.todo ? p.todo.length : 40) + wanted.length, none = [1, 2, 3].filter(m => p.points.some(q => q.method === m && q.status === -6));
-  $('cost-caption').textContent = p.note || `A run to t = ${short(s.span, 3)}${s.time ? ' ' + s.time : ''}. ` + (left ? `Measuring, ${left} runs to go.` : none.length ? `${none.map(m => METHODS[m]).join(', ')} cannot: ${s.momenta ? 'H is not v²/2 + V(q) for it' : s === mine ? 'L is ' + s.effects[0].what : s.mass && !s.mass.includes('MASS_DIAGONAL') ? 'the mass depends on q' : held() ? 'a constraint acts (degree 1 with Lobatto is RATTLE)' : 'a force reads v'}.` : 'All measured here, now.') + (s === mine ? ` Of the others an evaluation is ${s.momenta ? "of q' and p'" : 'an acceleration'}.` : '');
+  $('cost-caption').textContent = p.note || `A run to t = ${short(s.span, 3)}${s.time ? ' ' + s.time : ''}. ` + (left ? `Measuring, ${left} runs to go.` : none.length ? `${none.map(m => METHODS[m]).join(', ')} cannot: ${s.momenta ? 'it needs H split as T(p) + V(q)' : s === mine ? 'L is ' + s.effects[0].what : s.mass && !s.mass.includes('MASS_DIAGONAL') ? 'the mass depends on q' : held() ? 'a constraint acts (degree 1 with Lobatto is RATTLE)' : 'a force reads v'}.` : 'All measured here, now.') + (s === mine ? ` Of the others an evaluation is ${s.momenta ? "of q' and p'" : 'an acceleration'}.` : '');
   svg.dataset.left = left;
   svg.dataset.height = a.H;
   /* the cheapest for the wanted error */
