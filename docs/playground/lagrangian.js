@@ -69,8 +69,8 @@ function lagrange(text) {
       if (seen(/^\(\s*[\p{L}\d][^()+*/-]*\)/u)) noFunction(name, place);
       return ['name', name, !!seen(/^\(/), place];
     }
-    const raised = take(/^(\^|\*\*)/) ? [N(+must(/^-?\d+/, 'a whole number belongs here'))] : raisedBy();
-    if (!seen(/^\(/)) stop(`${name} needs parentheses: ${name}(${seen(MARKED) || 'x'})`, place);
+    const typed = text.slice(place, at), raised = take(/^(\^|\*\*)/) ? [N(+must(/^-?\d+/, 'a whole number belongs here'))] : raisedBy();
+    if (!seen(/^\(/)) stop(`${typed} needs parentheses: ${typed}(${seen(MARKED) || 'x'})`, place);
     need('(');
     const inside = sum();
     if (name !== 'pow') return need(')'), raised ? ['^', [name, inside], raised[0]] : [name, inside];
@@ -91,7 +91,7 @@ function lagrange(text) {
     return sign === '-' ? ['-', N(0), signed()] : sign ? signed() : power();
   }
   /* what stands beside it on the same line is a factor, unless it begins a line of its own, as x(0) = does */
-  const beside = () => seen(/^./) && !fresh && /^[\p{L}√(½]/u.test(text.slice(at)) && !/^\p{L}[\p{L}\w\u2080-\u2089\u0307\u0308]*['’′]*\s*(\([^()]*\)\s*)?=/u.test(text.slice(at)) && '*';
+  const beside = () => seen(/^./) && !fresh && /^[\p{L}√(½]/u.test(text.slice(at)) && !/^\p{L}[\p{L}\w\u2080-\u2089\u0307\u0308]*['’′]*\s*(\([^()]*\)\s*)?:?=/u.test(text.slice(at)) && '*';
   function product() {
     let left = signed(), below = 0;                      /* the line: the place behind a / */
     for (;;) {
@@ -125,9 +125,9 @@ function lagrange(text) {
       if ((kind = KINDS.indexOf(take(/^\w+/))) < 0) stop(`a kind is ${KINDS.slice(1).join(', ')}`, place);
       continue;
     }
-    const of = take(/^\([^()]*\)(?=\s*=)/);                /* H(q, p) = ... */
+    const of = take(/^\([^()]*\)(?=\s*:?=)/);                /* H(q, p) = ... */
     if (of && !/^[LH]$/.test(given) && !/^\(\s*t\s*\)$/.test(of)) stop(`a line has no arguments: ${given} = ..., and a start is ${given}(0)`, place);
-    if (!take(/^=/)) stop(lines.size ? `a sign such as * is missing before "${given}", or "=" after it` : `"=" is missing after ${name}`, place);
+    if (!take(/^:?=/)) stop(lines.size ? `a sign such as * is missing before "${given}", or "=" after it` : `"=" is missing after ${name}`, place);
     if (MATHS[given] || MADE_OF[given] || /^(pow|pi|t)$/.test(given)) stop(`${given} has a meaning of its own: take another name`, place);
     if (places.has(name)) stop(`${name} is given twice`, place);
     places.set(name, place);
