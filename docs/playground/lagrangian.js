@@ -51,13 +51,13 @@ function lagrange(text) {
   const SQUARE = 'brackets are ( and ), coordinates q1 and q2, not q[0] and q[1]';
   const need = (sign, why) => take(RegExp('^\\' + sign)) || stop(`"${sign}" is missing before ${found()}${why || ''}`);
 
-  /* [sign or function, operands], ['number', value] or ['name', name, before a bracket?, place] */
   function noFunction(name, place) {
     if (/^(f?abs|sign|min|max|floor)$/.test(name)) stop(`${name} has a kink, and L and H have to be smooth; sqrt(x^2 + 0.01) is`, place);
     stop(`${name} is not a function; there are ${[...Object.keys(MATHS), ...Object.keys(MADE_OF)].join(', ')}, pow and ^; what has a line of its own stands without (), and a product has *`, place);
   }
+  /* [sign or function, operands], ['number', value] or ['name', name, before a bracket?, place] */
   function atom() {
-    const part = take(/^[\u00bc-\u00be\u2153-\u215e]/), number = take(/^(\d+\.?\d*|\.\d+)(e[+-]?\d+)?/i);
+    const part = take(/^[\u00bc-\u00be\u2153-\u215e]/), number = !part && take(/^(\d+\.?\d*|\.\d+)(e[+-]?\d+)?/i);
     if (part) return ['/', ...plain(part).split('\u2044').map(a => N(+a))];
     if (number) return N(+number);
     if (take(/^\(/)) { const inside = sum(); need(')'); return inside; }
@@ -66,7 +66,7 @@ function lagrange(text) {
     if (!name) stop({ '[': SQUARE, '{': SQUARE, '|': '|x| has a kink, and L and H have to be smooth', '\\': "LaTeX is not read: a velocity is x', a root sqrt(x), a fraction a/b" }[text[at]] || `a number, a name or "(" belongs here, not ${found()}`);
     if (!MATHS[name] && !MADE_OF[name] && name !== 'pow') {
       if (take(/^\(\s*t\s*\)/)) return ['name', name, , place];
-      if (seen(/^\(\s*[\p{L}\d][^()+*/-]*\)/u)) noFunction(name, place);
+      if (seen(/^\(\s*[\p{L}\d][^()+*/\u2212-]*\)/u)) noFunction(name, place);
       return ['name', name, !!seen(/^\(/), place];
     }
     const typed = text.slice(place, at), raised = take(/^(\^|\*\*)/) ? [N(+must(/^-?\d+/, 'a whole number belongs here'))] : raisedBy();

@@ -285,9 +285,8 @@ static void own_slope_of_H(double t, const double *q, double *dq)
 static double own_energy(double t, const double *q, const double *v)
 {
     own_state(t, q, v);
-    double E = own_sweep(own_last());
-    if (own.momenta) return E;
-    E = -E;
+    if (own.momenta) return own_sweep(own_last());
+    double E = -own_sweep(own_last());
     for (int i = 0; i < own.n; ++i) E += v[i]*own.adjoint[1 + own.n + i];
     return E;
 }
