@@ -544,6 +544,23 @@ TEST(watch_sees_another_kind)
     assert_null(ride(&field_far_off, LAGRANGIAN_LINEAR, 0, &end));
 }
 
+/* By the dial as well: it does not creep up to the bump in ever shorter steps, but ends.  (In float steps of 256 EPS are
+   longer than the bump.) */
+TEST(watch_ends_a_run_by_the_dial)
+{
+    static lagrangian L;
+    const real q[] = { 0 }, v[] = { 25 };
+    assert_null(lagrangian_init(&L, bump, NULL, 0, q, v));
+    const gvi_effect scene[] = { lagrangian_effect(&L) };
+    const gvi_desc desc = { .n = 1, .degree = 4, .effects = scene, .effect_count = 1, .mass = lagrangian_mass(&L),
+                            .resolution = (EPS > R(1e-10) ? 16 : 256)*EPS };
+    gvi_stepper st = new_motion(&desc, 0, q, v);
+    for (int k = 0; k < 200 && st.status == GVI_OK; ++k) gvi_advance(&st, 4);
+    assert_int_equal(st.status, GVI_E_CALLBACK);
+    assert_says(gvi_why(&st), "set L.kind = LAGRANGIAN_MASS after lagrangian_init");
+    assert_between(1, st.t, 2);
+}
+
 /* The wall stands at 50; steps are 1/4 long and take eight points or more, and of every fourth look at one of 36 points
    derivatives are compared. */
 TEST(watch_sees_a_derivative_lost_on_the_way)

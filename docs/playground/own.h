@@ -1,8 +1,8 @@
-/* own.h - the visitor's own Lagrangian: a list of operations instead of a C function
+/* own.h - the visitor's own L or H: a list of operations instead of a C function
 
-   The page (lagrangian.js) turns what is typed into operations on numbered values: t, q, v, then one
-   more for each operation.  tools/lagrangian.h finds out what L is and makes the effect and the
-   mass of it, as in the C program that the page writes.  Only the derivatives come by another
+   The page (lagrangian.js) turns what is typed into operations on numbered values: t, q, v (of H: p),
+   then one more for each operation.  tools/lagrangian.h finds out what L is and makes the effect and
+   the mass of it, as in the C program that the page writes.  Only the derivatives come by another
    way: one sweep forwards and one back give all of them, exact to rounding; along a direction, the
    second ones too, for the rivals, which need accelerations.                             */
 #ifndef OWN_H
@@ -97,8 +97,8 @@ enum { OWN_CONSTANT, OWN_ADD, OWN_SUBTRACT, OWN_MULTIPLY, OWN_DIVIDE, OWN_POWER,
 
 /* What the page writes: operation, operands, constant; q and v at the start; x, y of the picture; where
    the force on each coordinate is, -1 for none; how many constraints there are, how many of them on
-   velocities, and where they are, those last.                                             */
-static double own_typed[4*OWN_MOST + 3*LAGRANGIAN_MOST + 2*OWN_POINTS + 2 + OWN_ROWS];
+   velocities, and where they are, those last; -1 for H, whose v is p, or L.kind if it is set. */
+static double own_typed[4*OWN_MOST + 3*LAGRANGIAN_MOST + 2*OWN_POINTS + 2 + OWN_ROWS + 1];
 
 static struct own {
     int        n, length, whole, points;          /* operations of L, and of the picture as well */
@@ -107,8 +107,10 @@ static struct own {
     double     value[OWN_INPUTS + OWN_MOST], tangent[OWN_INPUTS + OWN_MOST];
     double     adjoint[OWN_INPUTS + OWN_MOST], bent[OWN_INPUTS + OWN_MOST];  /* bent: its tangent */
     double     slope[OWN_MOST][2], turn[OWN_MOST][2];    /* dy/da, dy/db and their tangents   */
-    double     time;                              /* that the picture is of                   */
+    double     time, p[LAGRANGIAN_MOST];          /* that the picture is of                   */
+    int        momenta;                           /* H, not L                                 */
     lagrangian L;
+    hamiltonian H;
 } own;
 
 /* Values, slopes and their tangents of the first `count` operations.                       */
@@ -248,10 +250,13 @@ static int own_forces(const gvi_points *x, void *user)
 }
 
 /* From d/dt dL/dv = dL/dq + F: (d2L/dv2) a = dL/dq - d2L/dvdq v - d2L/dvdt + F              */
-static void own_accelerate(double t, const double *q, const double *v, double *a)
+static void own_slope_of_L(double t, const double *q, double *dq)
 {
     const int n = own.n;
+    const double *v = q + n;
+    double *a = dq + n;
     double M[LAGRANGIAN_MOST*LAGRANGIAN_MOST], pivot[LAGRANGIAN_MOST + 1];
+    memcpy(dq, v, sizeof(double)*(size_t)n);
     own_state(t, q, v);
     for (int j = 0; j < n; ++j) {
         own.tangent[1 + n + j] = 1;
@@ -268,10 +273,19 @@ static void own_accelerate(double t, const double *q, const double *v, double *a
     else a[0] = NAN;
 }
 
-/* v dL/dv - L                                                                             */
+static void own_slope_of_H(double t, const double *q, double *dq)
+{
+    const int n = own.n;
+    own_state(t, q, q + n);
+    own_sweep(own_last());
+    for (int i = 0; i < n; ++i) dq[i] = own.adjoint[1 + n + i], dq[n + i] = -own.adjoint[1 + i];
+}
+
+/* v dL/dv - L, or H                                                                       */
 static double own_energy(double t, const double *q, const double *v)
 {
     own_state(t, q, v);
+    if (own.momenta) return own_sweep(own_last());
     double E = -own_sweep(own_last());
     for (int i = 0; i < own.n; ++i) E += v[i]*own.adjoint[1 + own.n + i];
     return E;
@@ -282,6 +296,16 @@ static void own_build(scene_setup *s)
     const double *start = own_typed + 4*OWN_MOST;
     memcpy(s->q, start, sizeof(double)*(size_t)own.n);
     memcpy(s->v, start + own.n, sizeof(double)*(size_t)own.n);
+    s->momenta = own.momenta;
+    s->energy = own_energy;
+    if (own.momenta) {
+        scene_add(s, "H", "Hamilton's equations", "hamiltonian_effect(&H)", 1, hamiltonian_effect(&own.H));
+        INSTEAD(s, ((gvi_effect){ 0 }));
+        s->mass = hamiltonian_mass(&own.H);
+        s->mass_text = "hamiltonian_mass(&H)";
+        s->slope = own_slope_of_H;
+        return;
+    }
     const char *what = own.n ? lagrangian_text(&own.L) : "";
     scene_add(s, "L", what, "lagrangian_effect(&L)", 1, lagrangian_effect(&own.L));
     INSTEAD(s, ((gvi_effect){ 0 }));
@@ -296,22 +320,21 @@ static void own_build(scene_setup *s)
                   (gvi_effect){ .kind = GVI_NONHOLONOMIC, .points = own_rolls, .rows = own.rolls });
     s->mass = lagrangian_mass(&own.L);
     s->mass_text = "lagrangian_mass(&L)";
-    s->accelerate = own_accelerate;
-    s->energy = own_energy;
+    s->slope = own_slope_of_L;
 }
 
-/* A stepper's own copy of L.                                                              */
-static void own_mount(scene_setup *s, lagrangian *L)
+/* A stepper's own copy of L or H.                                                         */
+static void own_mount(scene_setup *s, lagrangian *L, hamiltonian *H)
 {
     *L = own.L;
-    s->row[0].effect = lagrangian_effect(L);
-    s->mass = lagrangian_mass(L);
+    *H = own.H;
+    s->row[0].effect = own.momenta ? hamiltonian_effect(H) : lagrangian_effect(L);
+    s->mass = own.momenta ? hamiltonian_mass(H) : lagrangian_mass(L);
 }
 
 static void own_place(const double *q, unsigned on, double (*x)[3])
 {
-    const double rest[LAGRANGIAN_MOST] = { 0 };
-    own_state(own.time, q, rest);
+    own_state(own.time, q, own.p);
     own_forward(own.whole);
     for (int i = 0; i < own.points; ++i)
         scene_point(x[i], own.value[own.at[2*i]], own.value[own.at[2*i+1]], 0);
@@ -321,8 +344,8 @@ static void own_place(const double *q, unsigned on, double (*x)[3])
 static const double own_radius[OWN_POINTS] = { 0 };
 
 static scene own_scene = {
-    .name = "own", .title = "Your own L",
-    .about = "Change the Lagrangian or the start: the motion and what it costs follow.",
+    .name = "own", .title = "Your own L or H",
+    .about = "Change L, H or the start: the motion and what it costs follow.",
     .degree = 8, .h = 0.1, .span = 10, .speed = 1, .time_unit = "", .error_unit = "", .text = "",
     .build = own_build, .view = 1, .place = own_place, .radius = own_radius,
 };
@@ -360,7 +383,13 @@ static const char *own_set(int n, int length, int whole, int points, double span
     own.rolls = (int)rows[1];
     own.holds = (int)rows[0] - own.rolls;
     for (int i = 0; i < own.holds + own.rolls; ++i) own.row[i] = (int)rows[2 + i];
-    const char *wrong = lagrangian_init(&own.L, (lagrangian_function){ n, own_add }, NULL, 0, start, start + n);
+    const int kind = (int)rows[2 + OWN_ROWS];
+    own.momenta = kind < 0;
+    memset(own.p, 0, sizeof own.p);
+    const lagrangian_function typed = { n, own_add };
+    if (own.momenta) return hamiltonian_init(&own.H, typed, NULL, 0, start, start + n);
+    const char *wrong = lagrangian_init(&own.L, typed, NULL, 0, start, start + n);
+    if (!wrong && kind > 0) own.L.kind = (lagrangian_kind)kind;
     return wrong ? wrong : own_refused(start);
 }
 

@@ -119,6 +119,33 @@ L = va^2/2 - A*w*sin(w*t)*va*sin(a) + g*cos(a)
 a(0) = 3
 end = 5
 draw = (0, y) (sin(a), y - cos(a))`,
+  'H: vortices that leapfrog': `# strengths 1, -1, 1, -1: a vortex at (x, y)
+# has q = x and p = its strength times y
+y1 = p1, y2 = -p2, y3 = p3, y4 = -p4
+H = log(d12 d14 d23 d34/(d13 d24))/(4 pi)
+
+d12 = (q1 - q2)^2 + (y1 - y2)^2
+d13 = (q1 - q3)^2 + (y1 - y3)^2
+d14 = (q1 - q4)^2 + (y1 - y4)^2
+d23 = (q2 - q3)^2 + (y2 - y3)^2
+d24 = (q2 - q4)^2 + (y2 - y4)^2
+d34 = (q3 - q4)^2 + (y3 - y4)^2
+q1(0) = 0, q2(0) = 0, q3(0) = 0.5, q4(0) = 0.5
+p1(0) = 0.5, p2(0) = 0.5, p3(0) = 0.5, p4(0) = 0.5
+end = 10
+draw = (q1, y1), (q2, y2), (q3, y3), (q4, y4)`,
+  'H: a star in a galaxy (Hénon-Heiles)': `H = (px² + py²)/2 + (x² + y²)/2 + x² y - y³/3
+
+x(0) = 0, y(0) = 0.1
+px(0) = 0.49, py(0) = 0
+end = 40`,
+  'H: three masses on a ring (Toda)': `a = q1 - q2, b = q2 - q3, c = q3 - q1
+H = (p1^2 + p2^2 + p3^2)/2 + exp(a) + exp(b) + exp(c)
+
+q1(0) = 1, q2(0) = 0, q3(0) = -1
+p1(0) = 0, p2(0) = 1, p3(0) = -1
+end = 20
+draw = (a, b)`,
 };
 let good = null;
 function put(r) {
@@ -128,20 +155,24 @@ function put(r) {
   numbers.set(r.draw, room + 2416);
   numbers.set(r.names.map((_, i) => r.force[i] ?? -1), room + 2440);
   numbers.set([r.holds.length + r.rolls.length, r.rolls.length, ...r.holds, ...r.rolls], room + 2448);
+  numbers[room + 2454] = r.momenta ? -1 : r.kind;
   return text(x.own_take(r.n, r.length, r.steps.length, r.draw.length / 2, r.end));
 }
+/* What lagrangian.h says of C, of what is typed here */
+const boxed = why => why.replace(/(d[LH]\/\S+) is +by numbers.*/, '$1 is not what differences show: it is not smooth there').replace(/a derivative of ([LH]) is lost.*/, '$1 is not smooth there')
+  .replace(/; give H.*HAMILTONIAN/, '; type H = ... in its place').replace(/as a row, by HOLDS.*/, 'as a line 0 = ...').replace(/: at t = .*; set L.kind = LAGRANGIAN_(\w+) .*/, '; add the line kind = $1');
 /* Takes what is typed: the sentence that says what is wrong, or ''. What ran before goes on then. */
 function own(typed) {
   let r;
   try { r = lagrange(typed); } catch (e) { return e.message; }
-  const why = put(r).replace(/ is +by numbers.*/, ' is not what differences show: L is not smooth near the start');
-  if (why) { if (good) put(good); return why.replace(/q\[(\d)]/g, (_, i) => r.names[i]).replace(/v\[(\d)]/g, (_, i) => speedOf(r.names[i])) + '.'; }
+  const why = boxed(put(r));
+  if (why) { if (good) put(good); return why.replace(/q\[(\d)]/g, (_, i) => r.names[i]).replace(/v\[(\d)]/g, (_, i) => speedOf(r.names[i])).replace(/p\[(\d)]/g, (_, i) => momentumOf(r.names[i])) + '.'; }
   good = r;
   for (const [key, p] of problems) if (p.o.scene === mine.i) problems.delete(key);
   const still = i => [0, 1].every(k => { const s = r.steps[r.draw[2 * i + k] - 2 * r.n - 1]; return s && !s[0]; });
   const rods = r.rods.filter(a => a[2] > 1), ends = r.rods.map(a => a[0] + a[2] - 1), points = [...Array(r.draw.length / 2).keys()];
   const bits = list => list.reduce((sum, i) => sum | 1 << i, 0);
-  Object.assign(mine, { n: r.n, span: r.end, speed: r.end / 10, bodies: points.length, rods, timed: r.timed, text: r.c, radius: points.map(i => still(i) ? rods.length ? 4 : 10 : 7),
+  Object.assign(mine, { n: r.n, span: r.end, speed: r.end / 10, bodies: points.length, rods, timed: r.timed, momenta: r.momenta, kind: r.kind, text: r.c, radius: points.map(i => still(i) ? rods.length ? 4 : 10 : 7),
     fixed: bits(points.filter(still)), trails: bits(ends.filter(i => !still(i))), mark: Math.random() });
   mine.effects = effectsOf(mine.i).map(e => ({ ...e, code: e.code.replace('ROWS', e.kind === 5 ? r.rolls.length : r.holds.length) }));
   mine.first = 2 ** mine.effects.length - 1;
@@ -165,7 +196,7 @@ function tryOut() {
 }
 function takeTyped(typed) {
   const wrong = own(typed);
-  $('wrong').textContent = wrong || `L is ${mine.effects[0].what}.`;
+  $('wrong').textContent = wrong || (mine.momenta ? "H: q' = dH/dp, p' = -dH/dq." : `L is ${mine.effects[0].what}.`);
   $('wrong').classList.toggle('bad', !!wrong);
   if (!wrong) set.L = typed;
   return wrong;
@@ -238,7 +269,7 @@ function complain(call, status, more = '', world = 0, why = '') {
   a.hidden = !status;
   if (!status) return;
   const e = status === -9 || status === -10 || status === -11 || status < -13 ? x.world_number(world, 11, 0) : -1;
-  $('alert-text').textContent = `${call}: ${why || text(x.status_text(world, status))}${e >= 0 ? ` (${scene().effects[e].name})` : ''}. ${more}`;
+  $('alert-text').textContent = `${call}: ${why || boxed(text(x.status_text(world, status)))}${e >= 0 ? ` (${scene().effects[e].name})` : ''}. ${more}`;
   $('alert').dataset.status = status;
   $('halve').hidden = why || set.dial || !/^-(8|9|10|14)$/.test(status);
   $('alert-clock').hidden = why || scene().clock < 0 || clocked();
@@ -527,10 +558,10 @@ function showNumbers() {
 }
 
 function showFormulation(changed) {
-  const f = $('formulation');
+  const f = $('formulation'), s = scene();
   if (!live.ok) { f.textContent = 'No formulation: the library refused this setting.'; f.dataset.formulation = ''; return; }
   const why = text(x.world_formulation(0)), pinned = x.world_number(0, 6, 0), name = FORMULATIONS[x.world_number(0, 4, 0)];
-  f.innerHTML = `Formulation chosen: <b>${name}</b><br>` + (pinned ? 'pinned by this page: Newton’s method, kept in reserve, would need too much memory here' : html(why.replace(/^[^:]*: /, '')));
+  f.innerHTML = `Formulation chosen: <b>${name}</b><br>` + (s.momenta ? 'H is of positions and momenta' : pinned ? 'pinned by this page: Newton’s method, kept in reserve, would need too much memory here' : html(why.replace(/^[^:]*: /, '')));
   f.dataset.formulation = name;
   if (changed) { f.classList.remove('flash'); void f.offsetWidth; f.classList.add('flash'); }
 }
@@ -607,7 +638,7 @@ function drawStability() {
     + s.kept.map((q, k) => stays[k] ? `<li>${swatch(k ? 'verlet' : 'dop', 1.2)}${html(q.name)}, gvi.h</li>` : '').join('') + (held() ? `<li>${swatch('ink', 1.4, '2 3')}constraint, |g|, gvi.h</li>` + (ghost.ok ? `<li>${swatch('rk4', 1.4, '2 3')}constraint, |g|, Runge-Kutta 4</li>` : '') : '') + `<li>${swatch('muted', 1.2, '4 3')}Brouwer: ε √steps</li>`;
   if ($('stability-legend').dataset.is !== legend) { $('stability-legend').innerHTML = legend; $('stability-legend').dataset.is = legend; }
   const broken = s.kept.filter(q => acting.some(e => q.unless.includes(e.name)));
-  let note = s.timed ? 'L depends on t: the energy is not to stay. ' : forces.length ? `The energy is not to stay while ${forces.map(e => e.name).join(', ')} ${forces.length > 1 ? 'act' : 'acts'}: switch that off to see what the integrator keeps. ` : 'The energy of the exact motion is constant. ';
+  let note = s.timed ? `${s.momenta ? 'H' : 'L'} depends on t: the energy is not to stay. ` : forces.length ? `The energy is not to stay while ${forces.map(e => e.name).join(', ')} ${forces.length > 1 ? 'act' : 'acts'}: switch that off to see what the integrator keeps. ` : 'The energy of the exact motion is constant. ';
   if (held() && s.kept) note += `The constraint is |g|, the largest over the run${s.length ? `, in ${s.length}²` : ''}: gvi.h satisfies it in each step, Runge-Kutta 4 only its second derivative. `;
   broken.forEach(q => { note += `The ${q.name} is changed by ${acting.filter(e => q.unless.includes(e.name)).map(e => e.name).join(', ')}. `; });
   $('stability-note').textContent = note;
@@ -782,7 +813,7 @@ function drawCost() {
     + (good.some(q => q.tol) ? `<li><svg aria-hidden="true">${marker(0, 11, 6, 4, 'fill="var(--card)" stroke="var(--gvi)" stroke-width="1.6"')}</svg>iterated to a tolerance</li>` : '')
     + (good.some(q => q.id === here) ? '<li><svg aria-hidden="true"><circle cx="11" cy="6" r="5" fill="none" stroke="var(--gvi)" stroke-width="2"/></svg>as set now</li>' : '');
   const left = (p.todo ? p.todo.length : 40) + wanted.length, none = [1, 2, 3].filter(m => p.points.some(q => q.method === m && q.status === -6));
-  $('cost-caption').textContent = p.note || `A run to t = ${short(s.span, 3)}${s.time ? ' ' + s.time : ''}. ` + (left ? `Measuring, ${left} runs to go.` : none.length ? `${none.map(m => METHODS[m]).join(', ')} cannot: ${s === mine ? 'L is ' + s.effects[0].what : s.mass && !s.mass.includes('MASS_DIAGONAL') ? 'the mass depends on q' : held() ? 'a constraint acts (degree 1 with Lobatto is RATTLE)' : 'a force reads v'}.` : 'All measured here, now.') + (s === mine ? ' Of the others an evaluation is an acceleration.' : '');
+  $('cost-caption').textContent = p.note || `A run to t = ${short(s.span, 3)}${s.time ? ' ' + s.time : ''}. ` + (left ? `Measuring, ${left} runs to go.` : none.length ? `${none.map(m => METHODS[m]).join(', ')} cannot: ${s.momenta ? 'it needs H split as T(p) + V(q)' : s === mine ? 'L is ' + s.effects[0].what : s.mass && !s.mass.includes('MASS_DIAGONAL') ? 'the mass depends on q' : held() ? 'a constraint acts (degree 1 with Lobatto is RATTLE)' : 'a force reads v'}.` : 'All measured here, now.') + (s === mine ? ` Of the others an evaluation is ${s.momenta ? "of q' and p'" : 'an acceleration'}.` : '');
   svg.dataset.left = left;
   svg.dataset.height = a.H;
   /* the cheapest for the wanted error */
@@ -838,7 +869,7 @@ function needed(code, roots) {
 function program(j) {
   const s = scene(), on = s.effects.filter((e, k) => set.on >> k & 1), tau = clocked();
   const steps = Math.ceil(s.span / j.h - 1e-9), C = v => Number.isInteger(v) ? v + '.0' : String(v);
-  const typed = s === mine, code = typed ? s.text : needed(s.text, [...on.map(e => e.code), s.make, s.mass].join(' '));
+  const typed = s === mine, v = s.momenta ? 'p' : 'v', code = typed ? s.text : needed(s.text, [...on.map(e => e.code), s.make, s.mass].join(' '));
   const state = f => [...Array(s.n)].map((_, i) => x.world_number(0, f, i)).join(', ').replace(/(.{60,90}?), /g, '$1,\n                        ');
   const rule = { gauss: '', 'gauss+2': ` .rule = { .points = ${j.degree + 2} },`, lobatto: ' .rule = { .kind = GVI_LOBATTO },' }[j.rule];
   const kicks = rule === undefined;
@@ -854,18 +885,18 @@ ${code}
 int main(void)
 {
     const double q[] = { ${state(32)} };
-    const double v[] = { ${state(33)} };
-${typed ? `    static lagrangian L;
-    const char *wrong = lagrangian_init(&L, own, NULL, 0, q, v);
+    const double ${v}[] = { ${state(33)} };
+${typed ? `    static ${s.momenta ? 'hamiltonian H' : 'lagrangian L'};
+    const char *wrong = ${s.momenta ? 'hamiltonian_init(&H' : 'lagrangian_init(&L'}, own, NULL, 0, q, ${v});
     if (wrong) return puts(wrong), 1;
-` : ''}${on.length ? `    const gvi_effect effects[] = {
+${s.kind ? `    L.kind = LAGRANGIAN_${KINDS[s.kind]};\n` : ''}` : ''}${on.length ? `    const gvi_effect effects[] = {
 ${on.map(e => `        ${e.code},`).join('\n')}
     };
 ` : ''}${kicks && j.rule === 'verlet' ? '    const double nodes[] = { 0, 1 }, weights[] = { 0.5, 0.5 };\n' : kicks ? kicks8() : ''}    gvi_desc desc = { .n = ${s.n}, .degree = ${j.degree},${kicks ? ` .rule = { GVI_KICKS, ${j.rule === 'verlet' ? 2 : 18}, nodes, weights },` : rule}${j.tol ? ` .tolerance = ${j.tol.toExponential(0)},` : ''}${j.dial ? ` .resolution = ${j.dial.toExponential(0)},` : ''}${on.length ? `
-                      .effects = effects, .effect_count = ${on.length}` : ''} };
+                      .effects = effects, .effect_count = ${on.length}` : ''}${s.momenta ? ', .formulation = GVI_MOMENTA' : ''} };
     gvi_stepper st;
 ${s.make ? `    ${s.make}\n` : ''}${s.mass ? `    desc.mass = ${s.mass.replace(/^\((\(.*)\)$/, '$1')};\n${held() && !typed ? '    desc.mass.velocity = NULL;                  // with constraints gvi.h solves for it\n' : ''}` : ''}    double *memory = malloc(gvi_size(&desc));
-    if (gvi_init(&st, &desc, memory, gvi_size(&desc)) == GVI_OK) gvi_start(&st, 0, q, v);
+    if (gvi_init(&st, &desc, memory, gvi_size(&desc)) == GVI_OK) ${s.momenta ? 'gvi_start_momentum' : 'gvi_start'}(&st, 0, q, ${v});
     ${j.dial ? `while (st.status == GVI_OK && st.t < ${C(s.span)}) gvi_advance(&st, ${C(s.span)});` : tau ? `while (st.status == GVI_OK && st.t < ${C(s.span)}) gvi_step(&st, ${C(j.h)});      // h in tau` : `for (int k = 0; k < ${steps} && st.status == GVI_OK; ++k) gvi_step(&st, ${C(s.span)}/${steps});`}
     printf("%s at t = %.17g\\n", gvi_why(&st), st.t);
     for (int i = 0; i < ${s.n}; ++i) printf("q[%d] = %.17g\\n", i, st.q[i]);

@@ -101,14 +101,13 @@ static void rival_hold(const rival *r, int n, const double *y, double *f)
     }
 }
 
-/* dy = slope of y: (v, M^-1 f) or (v, dL/dq + f).                                         */
+/* dy = slope of y: (v, M^-1 f), (v, dL/dq + f) or (dH/dp, -dH/dq).                        */
 static void rival_slope(rival *r, int n, double t, const double *y, double *dy)
 {
     gvi_points x = { .n = n, .count = 1, .stride = 1, .t = &t, .q = y, .f = dy + n };
     r->evaluations += 1;
-    if (r->setup->accelerate) {
-        memcpy(dy, y + n, sizeof(double)*(size_t)n);
-        r->setup->accelerate(t, y, y + n, dy + n);
+    if (r->setup->slope) {
+        r->setup->slope(t, y, dy);
         return;
     }
     for (int i = 0; i < n; ++i) dy[n+i] = 0;
@@ -256,17 +255,17 @@ static int rival_begin(rival *r, int method, int n, const scene_setup *s, unsign
 {
     r->n = n;
     r->method = method;
-    r->mass = s->accelerate ? (gvi_mass){ 0 } : s->mass;
+    r->mass = s->slope ? (gvi_mass){ 0 } : s->mass;
     r->setup = s;
     r->on = 0;
     r->effects = r->fresh = 0;
-    r->reads_velocity = s->accelerate && (s->row[0].effect.kind != GVI_POTENTIAL || s->rows > 1);
+    r->reads_velocity = s->slope && (s->row[0].effect.kind != GVI_POTENTIAL || s->rows > 1);
     r->evaluations = 0;
     r->t = t;
     for (int e = 0; e < s->rows; ++e) {
         const gvi_effect *effect = &s->row[e].force;
         if (!(on >> e & 1) || effect->kind == GVI_CLOCK || !effect->points) continue;
-        if (effect->kind == GVI_CONSTRAINT && !s->accelerate) { r->on |= 1u << e; continue; }
+        if (effect->kind == GVI_CONSTRAINT && !s->slope) { r->on |= 1u << e; continue; }
         if (effect->kind != GVI_POTENTIAL && effect->kind != GVI_FORCE) return -1;
         /* a force that reads no v would do, but nothing says that it does not              */
         if (effect->kind == GVI_FORCE && effect->points != motor_force) r->reads_velocity = 1;

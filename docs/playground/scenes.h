@@ -34,8 +34,9 @@ typedef struct scene_setup {
     const char *mass_text;
     double      q[SCENE_MOST], v[SCENE_MOST];
     double      value[SCENE_PARAMETERS];          /* in: as the sliders stand              */
-    void      (*accelerate)(double t, const double *q, const double *v, double *a);  /* NULL, or for */
-    double    (*energy)(double t, const double *q, const double *v);   /* the rivals instead of rows */
+    int         momenta;                          /* v and y hold q, p: the scene is H(t,q,p) */
+    void      (*slope)(double t, const double *y, double *dy);         /* NULL, or for the    */
+    double    (*energy)(double t, const double *q, const double *v);   /* rivals instead of rows */
 } scene_setup;
 
 typedef struct scene {

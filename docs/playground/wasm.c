@@ -60,7 +60,8 @@ typedef struct world {
     double       dial, from;                         /* desc.resolution; where world_open began */
     double       t, q[SCENE_MOST], v[SCENE_MOST], p[SCENE_MOST], before[SCENE_MOST];
     double       total[SCENE_EFFECTS], steps, iterations, evaluations;
-    lagrangian   own;                                /* of the visitor's scene             */
+    lagrangian   L;                                  /* of the visitor's scene             */
+    hamiltonian  H;
     rival        rival;
     int          method;                             /* of a race; 0: gvi.h                */
     double       step, end, done, count;             /* of a race                          */
@@ -153,7 +154,7 @@ double EXPORT(scene_number)(int scene, int field, int i)
 
 /* ------------------------------------------------------------------ a world */
 
-/* The visitor's Lagrangian, own.h: to be filled before own_take, which says what is wrong or nothing. */
+/* The visitor's L or H, own.h: to be filled before own_take, which says what is wrong or nothing. */
 double *EXPORT(own_room)(void) { return own_typed; }
 
 const char *EXPORT(own_take)(int n, int length, int whole, int points, double span)
@@ -203,7 +204,13 @@ static void world_remember(world *w)
     w->t = w->st.t;
     memcpy(w->q, w->st.q, sizeof(double)*(size_t)w->st.n);
     memcpy(w->p, w->st.p, sizeof(double)*(size_t)w->st.n);
-    gvi_velocity(&w->st, w->v);
+    if (w->setup.momenta) memcpy(w->v, w->p, sizeof w->v);
+    else gvi_velocity(&w->st, w->v);
+}
+
+static int world_start(world *w, double t, const double *q, const double *v)
+{
+    return w->setup.momenta ? gvi_start_momentum(&w->st, t, q, v) : gvi_start(&w->st, t, q, v);
 }
 
 /* Where nothing changed but constraints that the stepper lists: breaks or mounts them.  1: no.  */
@@ -251,7 +258,7 @@ int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, 
     w->chosen[1] = rule;
     w->dial = dial;
     scene_ready(a, &w->setup, values);
-    if (a == &own_scene) own_mount(&w->setup, &w->own);
+    if (a == &own_scene) own_mount(&w->setup, &w->L, &w->H);
     if (!keep) {                                     /* to be seen even if it does not start */
         w->t = 0;
         memcpy(w->q, w->setup.q, sizeof w->q);
@@ -259,6 +266,7 @@ int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, 
     }
     if (degree < 1) w->wrong = "degree is not 1 or more";
     if (rule < 0 || rule >= RULES) w->wrong = "rule is not one of the list";
+    else if (w->setup.momenta && rule != RULE_GAUSS) w->wrong = "for H the rule is Gauss, with as many points as degrees";
     if (w->wrong) return GVI_E_ARGUMENT;
     w->desc = (gvi_desc){ .n = a->n, .mass = w->setup.mass, .tolerance = tolerance, .resolution = dial };
     for (int i = 0; i < w->setup.rows; ++i) {
@@ -275,9 +283,10 @@ int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, 
         w->desc.formulation = reads ? GVI_VELOCITIES : GVI_POSITIONS;
         w->pinned = 1;
     }
+    if (w->setup.momenta) w->desc.formulation = GVI_MOMENTA;
     int status = gvi_init(&w->st, &w->desc, w->memory, sizeof w->memory);
     if (status == GVI_OK)
-        w->call = "gvi_start", status = keep ? gvi_start(&w->st, w->t, w->q, w->v) : gvi_start(&w->st, 0, w->setup.q, w->setup.v);
+        w->call = "gvi_start", status = keep ? world_start(w, w->t, w->q, w->v) : world_start(w, 0, w->setup.q, w->setup.v);
     w->open = status == GVI_OK;
     if (w->open) {
         world_remember(w);
@@ -392,11 +401,23 @@ const char *EXPORT(status_text)(int which, int status)
 
 const char *EXPORT(world_call)(int which) { return worlds[(unsigned)which%WORLDS].call; }
 
-static double *world_picture(const world *w, double t, const double *q)
+static double *world_picture(const world *w, double t, const double *q, const double *p)
 {
     own.time = t;
+    if (w->setup.momenta) memcpy(own.p, p, sizeof own.p);
     w->scene->place(q, w->on, (double (*)[3])(void *)out);
     return out;
+}
+
+/* Of H the momenta are seen as well: q and p at time t of the last step.                   */
+static double *world_picture_of_H(world *w, double t)
+{
+    double q[SCENE_MOST] = { 0 }, p[SCENE_MOST] = { 0 };
+    if (!w->open || gvi_state_at(&w->st, t, q, NULL, p) != GVI_OK) {
+        memcpy(q, w->open ? w->st.q : w->q, sizeof(double)*(size_t)w->scene->n);
+        memcpy(p, w->open ? w->st.p : w->v, sizeof(double)*(size_t)w->scene->n);
+    }
+    return world_picture(w, t, q, p);
 }
 
 /* Where the bodies are at time t of the last step.                                        */
@@ -408,6 +429,7 @@ double *EXPORT(world_place)(int which, double t)
     const int clock = w->open && w->on && w->setup.rows > 0
                    && w->setup.row[w->setup.rows - 1].effect.kind == GVI_CLOCK
                    && (w->on >> (w->setup.rows - 1) & 1);
+    if (w->setup.momenta) return world_picture_of_H(w, t);
     memcpy(q, w->open ? w->st.q : w->q, sizeof(double)*(size_t)w->scene->n);
     scene_push[0] = scene_push[1] = 0;
     if (w->scene->place == coin_place && w->open && w->on & 2 && w->steps > 0) gvi_multipliers(&w->st, scene_push);
@@ -420,7 +442,7 @@ double *EXPORT(world_place)(int which, double t)
         } else if (gvi_curve(&w->st, tau, q, NULL) != GVI_OK)
             for (int i = 0; i < w->scene->n; ++i) q[i] = w->before[i] + tau*(w->st.q[i] - w->before[i]);
     }
-    return world_picture(w, t, q);
+    return world_picture(w, t, q, NULL);
 }
 
 /* And on its curve, tau from 0 to 1.                                                      */
@@ -428,10 +450,11 @@ double *EXPORT(world_curve)(int which, double tau)
 {
     world *w = &worlds[(unsigned)which%WORLDS];
     static double q[SCENE_MOST];
+    if (w->setup.momenta) return world_picture_of_H(w, w->st.t - (1 - tau)*w->st.h);
     if (!w->open || gvi_curve(&w->st, tau, q, NULL) != GVI_OK)
         for (int i = 0; i < w->scene->n; ++i)
             q[i] = w->open ? w->before[i] + tau*(w->st.q[i] - w->before[i]) : w->q[i];
-    return world_picture(w, w->st.t - (1 - tau)*w->st.h, q);
+    return world_picture(w, w->st.t - (1 - tau)*w->st.h, q, NULL);
 }
 
 /* --------------------------------------- Runge-Kutta 4, next to what one sees */
@@ -455,7 +478,7 @@ int EXPORT(ghost_advance)(int which, double h, int count)
 double *EXPORT(ghost_place)(int which)
 {
     const world *w = &worlds[(unsigned)which%WORLDS];
-    return world_picture(w, w->rival.t, w->rival.y);
+    return world_picture(w, w->rival.t, w->rival.y, w->rival.y + w->rival.n);
 }
 
 /* -------------------------------------------------------------------- races */
@@ -468,7 +491,7 @@ int EXPORT(race_begin)(int which, int method, double parameter, double span)
     world *w = &worlds[(unsigned)which%WORLDS];
     if (!w->open || !(parameter > 0) || !(span > 0)) return GVI_E_ARGUMENT;
     const double steps = ceil(span/parameter - 1e-9);
-    const int status = gvi_start(&w->st, 0, w->setup.q, w->setup.v);
+    const int status = world_start(w, 0, w->setup.q, w->setup.v);
     if (status != GVI_OK) return status;
     w->method = method;
     w->end = span;

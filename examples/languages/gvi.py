@@ -8,7 +8,7 @@
     planet.steps(0.1, 1000)
     print(planet.t, planet.q, planet.energy())
 
-A Lagrangian is typed, and nothing else is needed: gvi.lagrangian.
+L(t, q, v) or H(t, q, p) is typed, and nothing else is needed: gvi.lagrangian, gvi.hamiltonian.
 
 The first stepper compiles gvi.h with $CC (cc) into the user's cache.  The header is $GVI_H, or gvi.h beside this file, or
 two folders above it.  What the fields and functions mean is said in gvi.h; their names are the same without `gvi_`.
@@ -22,6 +22,7 @@ import ctypes as C
 import hashlib
 import os
 import platform
+import re
 import subprocess
 
 import numpy as np
@@ -262,24 +263,28 @@ class Stepper:
 TYPED = """#include "gvi.h"
 #include "lagrangian.h"
 static inline number power(number x, int k) { number y = 1; while (k-- > 0) y *= x; return y; }
-%s
-size_t typed_size(void) { return sizeof(lagrangian); }
-const char *typed_text(const lagrangian *L) { return lagrangian_text(L); }
-const char *typed_init(lagrangian *L, void *user, double t, const double *q, const double *v, gvi_effect *rows, gvi_mass *mass)
+%(parts)s
+size_t typed_size(void) { return sizeof(%(of)s); }
+const char *typed_init(%(of)s *L, void *user, double t, const double *q, const double *v, gvi_effect *rows, gvi_mass *mass,
+                       const char **what)
 {
-    const char *wrong = lagrangian_init(L, typed_L, user, t, q, v);
+    const char *wrong = %(of)s_init(L, typed_L, user, t, q, v);
     if (wrong) return wrong;
-    *rows++ = lagrangian_effect(L);
-    *mass = lagrangian_mass(L);
-%s    return NULL;
+    *what = %(what)s;
+    *rows++ = %(of)s_effect(L);
+    *mass = %(of)s_mass(L);
+%(rows)s    return NULL;
 }
 """
+IN_PYTHON = (r"by HAMILTONIAN", "to gvi.hamiltonian"), (r"as a row, by HOLDS.*", "as holds="), (       # what sentences say of C
+    r"set L\.kind = LAGRANGIAN_(\w+) after lagrangian_init", r'give kind="\1"')
 FUNCTIONS = "sqrt cbrt exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh atan2 hypot fabs".split()
 SIGNS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.UAdd: "+", ast.USub: "-"}
 
 class InC:
-    """Python's syntax to C: q[i], v[i], t, pi, parameters, + - * / **, the functions above, `name = ...;` before the last"""
-    def __init__(self, n, parameters): self.n, self.names = n, {**parameters, "t": "t", "pi": "3.14159265358979323846"}
+    """Python's syntax to C: q[i], v[i] or p[i], t, pi, parameters, + - * / **, the functions above, `name = ...` before the last"""
+    def __init__(self, n, parameters, letter):
+        self.n, self.letter, self.names = n, letter, {**parameters, "t": "t", "pi": "3.14159265358979323846"}
 
     def body(self, text):
         *before, last = ast.parse(text.strip() or "nothing").body
@@ -301,7 +306,7 @@ class InC:
             return repr(float(e.value))                    # 1/2 is 0.5, as in Python
         if isinstance(e, ast.Name) and e.id in self.names:
             return self.names[e.id]
-        if isinstance(e, ast.Subscript) and isinstance(e.value, ast.Name) and e.value.id in "qv":
+        if isinstance(e, ast.Subscript) and isinstance(e.value, ast.Name) and e.value.id in ("q", self.letter):
             i = getattr(e.slice, "value", None)
             if type(i) is int and 0 <= i < self.n:
                 return f"{e.value.id}[{i}]"
@@ -316,7 +321,7 @@ class InC:
             return f"({SIGNS[type(e.op)]}{self.term(e.operand)})"
         if isinstance(e, ast.Call) and isinstance(e.func, ast.Name) and e.func.id in FUNCTIONS and not e.keywords:
             return f"{e.func.id}({', '.join(map(self.term, e.args))})"
-        raise ValueError(f"{ast.unparse(e)}: not known; there are q[i], v[i], t, pi, parameters, + - * / ** and "
+        raise ValueError(f"{ast.unparse(e)}: not known; there are q[i], {self.letter}[i], t, pi, parameters, + - * / ** and "
                          + " ".join(FUNCTIONS))
 
 class lagrangian(Stepper):
@@ -326,12 +331,15 @@ class lagrangian(Stepper):
         pendulum.start(0, [1], [0])
 
     Fields of gvi_desc are options, all other names parameters: those of pendulum["g"] = 3.7 may change between steps.
-    ValueError says why L is refused; .text says, after start, what it was found to be."""
-    def __init__(self, L, n, F=None, holds=(), rolls=(), **options):
+    ValueError says why L is refused; .text says, after start, what it was found to be, or what kind="MASS", say, sets."""
+    of, letter, what = "lagrangian", "v", "lagrangian_text(L)"
+
+    def __init__(self, L, n, F=None, holds=(), rolls=(), kind=None, **options):
         self.options = {name: options.pop(name) for name, _ in gvi_desc._fields_ if name in options}
         self.names, self.values = list(options), numbers(list(options.values()) or [0])
-        c, header = InC(n, {name: f"((const double *)user)[{k}]" for k, name in enumerate(options)}), beside()
-        parts, rows, folder = ["LAGRANGIAN(typed_L, %d) { %s return %s; }" % (n, *c.body(L))], "", os.path.dirname(header)
+        c, header = InC(n, {name: f"((const double *)user)[{k}]" for k, name in enumerate(options)}, self.letter), beside()
+        what = f"(L->kind = LAGRANGIAN_{kind}, {self.what})" if kind else self.what
+        parts, rows, folder = ["%s(typed_L, %d) { %s return %s; }" % (self.of.upper(), n, *c.body(L))], "", os.path.dirname(header)
         if F:
             parts.append("DISSIPATION(typed_F, %d) { %s return %s; }" % (n, *c.body(F)))
             rows += "    *rows++ = (gvi_effect){ .kind = GVI_FORCE, .points = typed_F, .user = user };\n"
@@ -343,8 +351,8 @@ class lagrangian(Stepper):
         tool = next((h for h in tools if os.path.exists(h)), None)
         if not tool:
             raise FileNotFoundError(f"lagrangian.h is neither beside {header} nor in a folder tools there")
-        self.lib = load(None, TYPED % ("\n".join(parts), rows), header, tool)
-        self.lib.typed_size.restype, self.lib.typed_init.restype, self.lib.typed_text.restype = C.c_size_t, text, text
+        self.lib = load(None, TYPED % dict(of=self.of, parts="\n".join(parts), what=what, rows=rows), header, tool)
+        self.lib.typed_size.restype, self.lib.typed_init.restype = C.c_size_t, text
         self.error, self.views, self.size, self.count, self.rows = None, {}, n, rows.count("*rows++") + 1, rows.count(".rows = 1")
         self.L = C.create_string_buffer(self.lib.typed_size())
 
@@ -353,13 +361,34 @@ class lagrangian(Stepper):
 
     def start(self, t, q, v):
         q, v = numbers(q, (self.size,)), numbers(v, (self.size,))
-        self.effects, mass = (gvi_effect*self.count)(), gvi_mass()
-        wrong = self.lib.typed_init(self.L, given(self.values), real(t), given(q), given(v), self.effects, C.byref(mass))
+        self.effects, mass, what = (gvi_effect*self.count)(), gvi_mass(), text()
+        wrong = self.lib.typed_init(self.L, given(self.values), real(t), given(q), given(v), self.effects, C.byref(mass),
+                                    C.byref(what))
         if wrong:
-            raise ValueError(wrong.decode())
-        self.text = self.lib.typed_text(self.L).decode()
+            raise ValueError(self.said(wrong.decode()))
+        self.text = what.value.decode()
         self.open(gvi_desc(n=self.size, mass=mass, effects=self.effects, effect_count=self.count, **self.options))
-        super().start(t, q, v)
+        (self.start_momentum if self.letter == "p" else super().start)(t, q, v)
+
+    def why(self): return self.said(super().why())
+    def said(self, sentence):
+        for c, python in IN_PYTHON:
+            sentence = re.sub(c, python, sentence)
+        return sentence
+
+class hamiltonian(lagrangian):
+    """a scene from H(t, q, p) alone, without friction and constraints
+
+        pair = gvi.hamiltonian("-log((q[0] - q[1])**2 + (p[0] - p[1])**2)/(4*pi)", n=2)     # two vortices
+        pair.start(0, [0, 0], [0.5, -0.5])                                                  # q and p
+
+    Parameters and options are those of gvi.lagrangian."""
+    of, letter, what = "hamiltonian", "p", '"H(t,q,p)"'
+
+    def __init__(self, H, n, **options):
+        if options.keys() & {"F", "holds", "rolls", "kind"}:
+            raise ValueError("F, holds, rolls and kind are for gvi.lagrangian: H stands alone")
+        super().__init__(H, n, formulation=MOMENTA, **options)
 
 def plain(name, *x, out=()):
     """gvi_`name`(*x, *out), a function without a stepper; returns `out`, or what it returns: plain("gauss", 3,

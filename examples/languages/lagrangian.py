@@ -1,4 +1,4 @@
-"""lagrangian.py - a Lagrangian typed in Python, and nothing else
+"""lagrangian.py - L or H typed in Python, and nothing else
 
     python3 lagrangian.py                (an argument: a picture of planet and moon, by matplotlib)
 
@@ -12,7 +12,9 @@ L is v'M(t,q)v/2 - V(t,q), energy within 1e-12: True
 planet with moon: 1000 days, energy within 1e-12: True
 a bead on a hoop that stands: g = 0 to rounding: True
 damped oscillator against its formula, within 1e-12: True
+two vortices on their circle, within 1e-12: True
 refused: v[0]**2/2 - k*q[0]**2: k is missing
+refused: q[0]*v[1] - q[1]*v[0]: L is linear in v: its equations are of first order; give H(t,q,p) to gvi.hamiltonian
 """
 import sys
 
@@ -62,16 +64,33 @@ def damped():
     print("damped oscillator against its formula, within 1e-12:", abs(run.q[0] - exact) < 1e-12)
 
 
+def vortices():
+    """of strengths 1 and 2, q = x and p = strength times y; a distance of 1 turns at the rate 3/(2 pi)"""
+    run = gvi.hamiltonian("-2*log((q[0] - q[1])**2 + (p[0] - p[1]/2)**2)/(4*pi)", n=2)
+    run.start(0, [-2/3, 1/3], [0, 0])
+    run.steps(0.1, 100)
+    x, y = run.q, run.p/[1, 2]
+    angle = 30/(2*np.pi)
+    off = np.hypot(x - np.cos(angle)*np.array([-2/3, 1/3]), y - np.sin(angle)*np.array([-2/3, 1/3]))
+    print("two vortices on their circle, within 1e-12:", off.max() < 1e-12)
+
+
 def main(picture=None):
     double_pendulum()
     track = planet_with_moon()
     hoop()
     damped()
+    vortices()
     text = "v[0]**2/2 - k*q[0]**2"
     try:
         gvi.lagrangian(text, n=1)
     except ValueError as why:
         print(f"refused: {text}: k is missing" if str(why).startswith("k:") else why)
+    text = "q[0]*v[1] - q[1]*v[0]"
+    try:
+        gvi.lagrangian(text, n=2).start(0, [1, 2], [1, 1])
+    except ValueError as why:
+        print(f"refused: {text}: {why}")
     if picture:
         import matplotlib
         matplotlib.use("Agg")

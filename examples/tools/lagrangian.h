@@ -884,6 +884,7 @@ typedef struct lagrangian {
     /* the watch */
     int                 points;       /* since the last look                    */
     int                 looks, alert; /* alert: calls in which all points are looked at */
+    int                 alarms;       /* since there was none                   */
     gvi_real            grain[LAGRANGIAN_MOST];             /* of dL/dv_i: rounding that was seen */
     gvi_real            t, q[LAGRANGIAN_MOST], v[LAGRANGIAN_MOST];  /* of the last look */
     char                why[400];
@@ -1233,12 +1234,14 @@ static inline const char *lagrangian_text(const lagrangian *L)
    Is L still what it was found to be?  One dL/dv_i at one point of 36 against what L.kind says, at the v of the step
    or, where a step makes none, at one that its points show.  Of C every fourth look also compares the derivative
    along the motion with a difference.  What is off makes the callback fail, and from then on all points
-   are looked at until none is.                                                 */
-enum { LAGRANGIAN__EVERY = 36 };
+   are looked at until none is.  After as many alarms in a row as gvi_advance has tries every step fails: it
+   would creep up to the place in ever shorter ones.                            */
+enum { LAGRANGIAN__EVERY = 36, LAGRANGIAN__ALARMS = 64 };
 
 static inline int lagrangian_fail(lagrangian *L, const gvi_points *x)
 {
     L->alert = 16;
+    ++L->alarms;
     return gvi_fail(x, L->why);
 }
 
@@ -1287,6 +1290,7 @@ static inline int lagrangian_look(lagrangian *L, const gvi_points *x)
 {
     const int n = x->n;
     gvi_real q[LAGRANGIAN_MOST], v[LAGRANGIAN_MOST], way[2*LAGRANGIAN_MOST];
+    if (L->alarms >= LAGRANGIAN__ALARMS) return gvi_fail(x, L->why);
     L->points += x->count > 4 ? x->count : 4;      // explicit steps have one
     if (!L->alert && L->points < LAGRANGIAN__EVERY) return 0;
     L->points = 0;
@@ -1300,7 +1304,7 @@ static inline int lagrangian_look(lagrangian *L, const gvi_points *x)
                         || (derivatives && lagrangian_loses(L, x->t[k], q, v, way));
         if (off && lagrangian_finite(n, q) && lagrangian_finite(n, v)) return lagrangian_fail(L, x);       // else an iterate
     }                                                                                                  // went astray
-    if (L->alert) --L->alert;
+    if (L->alert && !--L->alert) L->alarms = 0;
     if (x->count > 1) return 0;
     L->t = x->t[0];
     memcpy(L->q, q, (size_t)n*sizeof *q);
@@ -1387,6 +1391,7 @@ static inline void lagrangian_take(lagrangian *L)
 {
     if (L->kind != L->found) memset(L->varies, 1, sizeof L->varies);
     L->found = L->kind;
+    L->alarms = 0;
 }
 
 static inline gvi_effect lagrangian_effect(lagrangian *L)

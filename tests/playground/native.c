@@ -4,7 +4,7 @@
    method -1: `parameter` is the step; the constraint that is last in the list breaks after 20, and is
    mounted again after 20 more, which is refused, but where what was held stays.
    method -2: gvi.h by the dial, which `parameter` is.
-   A file that bits.mjs writes holds Lagrangians as the page hands them over; own K: from here on, the K-th. */
+   A file that bits.mjs writes holds L and H as the page hands them over; own K: from here on, the K-th. */
 #include "../../docs/playground/wasm.c"
 #include <inttypes.h>
 #include <stdio.h>

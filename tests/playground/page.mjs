@@ -309,7 +309,7 @@ for (const name of ['kepler', 'pendulum', 'rods', 'frame', 'quaternion', 'net', 
   } catch (e) { check(`${name}: the C compiles`, false, e.message); }
 }
 
-/* ---- the visitor's own Lagrangian ---- */
+/* ---- the visitor's own L or H ---- */
 await page.click('#scenes button[data-scene=own]');
 check('own: the box and the C are there', (await page.isVisible('#typed')) && (await page.isVisible('#code')));
 const compiled = {};
@@ -336,7 +336,8 @@ const said = what => soon(page, w => new RegExp(w).test(document.querySelector('
 const goes = async () => soon(page, t => window.gvi.live.t > t, await page.evaluate(() => window.gvi.live.t));
 await page.selectOption('#examples', 'a planet');
 for (const [typed, words] of [['L = vx^2/2 - k*x\nx(0) = 1', '^Line 1, column 14: k is not known'], ['L = 2\nx', '^Line 2, column 1: .* missing before "x"'], ['x(0) = 1\nL = vx^2 - abs(x)', '^Line 2, column 12: abs has a kink'],
-  ['L = vx^2/2 + y\nx(0) = 1, y(0) = 0', 'no kinetic energy in y and is linear in it']]) {
+  ['L = vx^2/2 + y\nx(0) = 1, y(0) = 0', 'no kinetic energy in y and is linear in it.*as a line 0 = ...\\.$'], ["L = x y' - y x'\nx(0) = 1, y(0) = 1", 'of first order; type H = ... in its place\\.$'], ['L = vx^2/2 - px\nx(0) = 1', 'px is a momentum, and L takes velocities'],
+  ["H = x'^2/2\nx(0) = 1", "^Line 1, column 5: x' is a velocity, and H takes momenta: px"], ['H = px^2/2\n0 = x\nx(0) = 0', '^Line 2, column 1: a constraint needs L'], ['H = p^2/2 + log(x)\nx(0) = 0', '^H is not finite at the start'], ['H = p^2/2 + sqrt(x^2)\nx(0) = 0', '^dH/dx is not finite at the start']]) {
   await page.fill('#typed', typed);
   check(`own, ${JSON.stringify(typed)}: words`, await said(words), await page.textContent('#wrong'));
   check(`own, ${JSON.stringify(typed)}: what ran before goes on`, (await page.evaluate(() => document.querySelector('#wrong').className === 'bad')) && await goes());
@@ -346,13 +347,25 @@ check('own, an oscillator: it runs', (await said("L is v'Mv/2")) && (await chose
 const swing = await page.evaluate(() => { const { x, set } = window.gvi; new Float64Array(x.memory.buffer).fill(0, x.parameters()/8, x.parameters()/8 + 4); x.world_open(2, set.scene, 1, 8, 0, 0, 0); x.world_advance(2, 0.125, 64); return x.world_number(2, 30, 0) - Math.cos(16); });
 check('own, an oscillator: its cosine', Math.abs(swing) < 1e-13, swing);
 const link = await page.evaluate(() => location.hash);
+await page.fill('#typed', 'H = p²/2 - cos(q)\nq(0) = 1, p(0) = 1');
+check('own, a pendulum as H: it runs', (await said("^H: q' = dH/dp, p' = -dH/dq")) && (await chosen(page)) === 'momenta' && await goes(), await page.textContent('#wrong'));
+await plotted(page, 3);
+check('own, as H: its energy is level, and in the plot', (await lost()) < 1e-14 && /energy off by/.test(await page.textContent('#readout')) && await page.evaluate(() => document.querySelectorAll('#stability path').length >= 2), await lost());
+check('own, as H: it goes on from its momentum', await page.evaluate(() => { const p = () => window.gvi.x.world_number(0, 31, 0), before = [window.gvi.x.world_number(0, 30, 0), p()], d = document.querySelector('#degree'); window.gvi.live.playing = false; d.value = 5; d.dispatchEvent(new Event('input', { bubbles: true })); return Math.abs(window.gvi.x.world_number(0, 30, 0) - before[0]) + Math.abs(p() - before[1]) < 1e-14; }));
+await page.selectOption('#rule', 'lobatto');
+check('own, as H: another rule is refused in words', /for H the rule is Gauss/.test(await page.textContent('#alert-text')), await page.textContent('#alert-text'));
+await page.selectOption('#rule', 'gauss');
+await page.fill('#typed', "L = x'^2/2 (1 + h^2) - 9.81 exp(-(x - 50)^2)\nh = -2 (x - 50) exp(-(x - 50)^2)\nx(0) = 0, x'(0) = 25");
+check('own, a bump: it stops, and says what to add', await soon(page, () => /as it was near the start; add the line kind = MASS\./.test(document.querySelector('#alert-text').textContent)), await page.textContent('#alert-text'));
+await page.fill('#typed', `${await page.inputValue('#typed')}\nkind = MASS`);
+check('own, a bump: with the line it passes', (await said("M\\(t,q\\)")) && await soon(page, () => window.gvi.x.world_number(0, 30, 0) > 60) && /L.kind = LAGRANGIAN_MASS;/.test(await page.textContent('#code')));
 await page.fill('#typed', "L = θ'²/2 + cos(θ)\nFθ = -0.5 θ'\nθ(0) = 1");
 check('own, a force: its row, and the energy falls', await soon(page, () => document.querySelectorAll('#rows tr').length === 2 && /changed by/.test(document.querySelector('#energy-word').textContent) && window.gvi.live.t > 3 && Number(document.querySelector('#energy').textContent) > 0.1),
   await page.textContent('#readout'));
 check('own, a force: its C, and nothing covers it', /GVI_POINTS\(force, 1, v, f\)[^]*at->f\[0\] \+= \(-0.5\)\*vtheta/.test(await page.textContent('#code')) && await page.evaluate(() => document.querySelector('#copy').getBoundingClientRect().bottom <= document.querySelector('#code').getBoundingClientRect().top), await page.textContent('#code'));
 for (const [hash, works] of [[link, true], ['#scene=own&L=nonsense', false], ['#scene=own', true]]) {
   const other = await visit(hash), seen = await other.evaluate(() => [document.querySelector('#scene-title').textContent, document.querySelector('#typed').value, document.querySelector('#alert').hidden]);
-  check(`own, a shared address: ${works ? 'as it was' : 'words'}`, (seen[0] === 'Your own L') === works && seen[2] === works && (hash !== link || /2\*x\^2/.test(seen[1])), seen);
+  check(`own, a shared address: ${works ? 'as it was' : 'words'}`, (seen[0] === 'Your own L or H') === works && seen[2] === works && (hash !== link || /2\*x\^2/.test(seen[1])), seen);
   await leave(other);
 }
 await page.click('#scenes button[data-scene=kepler]');
