@@ -1732,8 +1732,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 
 // Newton's method: contraction
 #define GVI__CONTRACTS ((gvi_real)0.25)    // keeps its matrix; a curve is near
-#define GVI__CLOSE ((gvi_real)0.03125)     // to a linear prediction: the same branch; linear
-#define GVI__SHORT 64                      // h over this: free motion leads to the motion
+#define GVI__CLOSE ((gvi_real)0.03125)     // to a prediction, to a line, of h to 0: near
 #define GVI__FADES (1 << GVI__DIG/6)       // a third of the digits: where a step failed, a row ends
 #define GVI__LOST 4                        // of a pivot's entry what is left: rank may be changing
 #define GVI__WRONG 512                     // of an entry of G, what it is off times this: wrong
@@ -6200,7 +6199,7 @@ static void gvi__newton_shorten(gvi_stepper *st, gvi_real part, const gvi_real *
 }
 
 /* How far is y from `other`? The largest distance of a coordinate, in units of its own size there
-   and at h, but no less than 1/64 of the largest, each times sqrt(M_ii).                     */
+   and at h, but no less than 1/32 of the largest, each times sqrt(M_ii).                     */
 static gvi_real gvi__newton_distance(const gvi_stepper *st, const gvi_real *other)
 {
     const struct gvi__private *in = &st->in;
@@ -6216,7 +6215,7 @@ static gvi_real gvi__newton_distance(const gvi_stepper *st, const gvi_real *othe
 
     if (!(most > 0)) return 0;
     for (int i = 0; i < st->n; ++i) {
-        const gvi_real far = moved[i]/(size[i] + most/64);
+        const gvi_real far = moved[i]/(size[i] + GVI__CLOSE*most);
         if (!(far <= distance)) distance = far;
     }
     return distance;
@@ -6226,7 +6225,7 @@ static gvi_real gvi__newton_distance(const gvi_stepper *st, const gvi_real *othe
    followed back to shorter steps, from length to length by a prediction: the same curve, changed
    as it changed last.  From a continuous branch the prediction is not far when the lengths are
    close; where it is however close they are, the branch has turned back.  A length is enough
-   where the iteration contracts well from constant velocity, h/64 in any case.  If it then comes
+   where the iteration contracts well from constant velocity, h/32 in any case.  If it then comes
    to the same solution, or to none, y is accepted.  Under constraints rounding of g is in every
    solution, and all of it where a step moves by roundings of q: what it makes counts as not far. */
 static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from,
@@ -6269,7 +6268,7 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
         }
         gvi__newton_guess(st, 0);
         const int other = gvi__newton_solve(st, from, &K) == GVI_OK;
-        if ((other && newton->bend <= close) || part < 1/(gvi_real)GVI__SHORT)
+        if ((other && newton->bend <= close) || part < close)
             right = !other || gvi__newton_distance(st, newton->branch) <= within;
     }
 
@@ -6690,7 +6689,7 @@ static int gvi__gram_pivot(const gvi_stepper *st, int S, gvi_real *A, int i, gvi
         A[(i*m + j)*S] = l;
         rest -= l*u;
     }
-    for (int j = from; j < i && GVI_ABS(rest) < was/16; ++j) {
+    for (int j = from; j < i && GVI_ABS(rest)*(GVI__LOST*GVI__LOST) < was; ++j) {
         const gvi_real l = A[(i*m + j)*S];
         size += l*l*gvi__entry(st, S, j, A);
     }
@@ -7169,7 +7168,7 @@ static void gvi__drift_move(gvi_stepper *st, const gvi__origin *from, gvi_real h
 
 /* RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, from a simplified Newton iteration.  A
    row is rounding by what q1 was added up from, q0 and the paths, which cancel where q1 is near 0.
-   An error four times the least so far is divergence.                                         */
+   An error four times the least so far is divergence, as far as the two are no rounding.      */
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *in = &st->in;
@@ -7196,7 +7195,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         if (!gvi__finite(size) && !GVI__LOOKS(st) && before*GVI__EPS < GVI__FAR)
             return gvi__report_status(st, GVI_E_NON_FINITE);
         least = gvi__smaller(size, least);
-        if (!gvi__finite(size) || k > 64 || size > 4*(least + 256))
+        if (!gvi__finite(size) || k > in->desc.max_iterations || size > 4*(least + GVI__GRAIN))
             return gvi__report_status(st, GVI_E_CONVERGENCE);
         before = size;
         gvi__drift_move(st, from, h, path);
@@ -7234,8 +7233,9 @@ GVI__COLD int gvi__doubtful(const gvi_stepper *st, const gvi_real *q, int a, gvi
 }
 
 /* Is each g_a within 4096 roundings, as far as these are known, or as measured?  To measure, take
-   1/4096 of Newton's correction, forwards and back, and less: if g_a follows both, to a quarter of
-   the change that G at both ends tells, its rounding is below that, and g_a is none.  Of a row that
+   1/4096 of Newton's correction, forwards and back, and less, down to eps of that: if g_a follows
+   both, to a quarter of the change that G at both ends tells, its rounding is below that, and g_a
+   is none.  Of a row that
    is left out, what those before it do not explain (A = L D L': L^-1 g) may be a contradiction,
    which no move shows.  In a step (`start` 0) the others are as exact as its iteration made
    them.                                                                                       */
@@ -7272,7 +7272,7 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
     if (!gvi__finite(gvi__norm1(n, d))) refused = off;
     gvi__zero((size_t)m, ahead);
     gvi_real part = 1/GVI__HELD;
-    for (int k = 0; k < 34 && refused < 0; ++k) {
+    for (int k = 0; part > GVI__EPS/GVI__HELD && refused < 0; ++k) {
         const gvi_real step = k % 2 ? -part : part;
         gvi__add_scaled(n, step, d, q, next);
         if (k % 2) part /= 8;
@@ -8011,7 +8011,7 @@ GVI__COLD gvi_status gvi__hold_rate(gvi_stepper *st, const gvi_real *v, const gv
     return GVI_OK;
 }
 
-/* A time in which much changes, |p||q|/p'v, is the first delta, a power of 2, times 8 or more.
+/* A time in which much changes, |p||q|/p'v or 1, is the first delta, a power of 2, times 8 or more.
    d2L/dv2 by differences is not A to rounding, so what it leaves is found once more.          */
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
 {
@@ -8040,8 +8040,8 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
 
     const gvi_real terms = m > 0 && status == GVI_OK ? gvi__rate_terms(st, v) : 0;
     for (int i = 0; i < n; ++i) size += GVI_ABS(st->p[i]*st->q[i]);
-    gvi_real time = size > 0 ? size/GVI_ABS(gvi__dot(n, st->p, v)) : 1;
-    if (!gvi__finite(time)) time = 8;
+    gvi_real time = size/GVI_ABS(gvi__dot(n, st->p, v));
+    if (!(time > 0) || !gvi__finite(time)) time = 1;
     int exponent;
     (void)GVI_FREXP(time, &exponent);
     const gvi_real delta = GVI_LDEXP(1, exponent - 4);
@@ -8187,7 +8187,7 @@ static gvi_status gvi__find_nearest(gvi_stepper *st, gvi_real t, const gvi_real 
 
         before = change;
         change = gvi__approach(st, q, share, way, &size);
-        if (change > before && share > (gvi_real)0.02) share /= 2;
+        if (change > before && share*(1 << GVI__NEARER) > 1) share /= 2;
     }
 }
 
