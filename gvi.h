@@ -6067,25 +6067,22 @@ static int gvi__newton_at_floor(gvi__descent *p, gvi_real change, gvi_real noise
 
 /* The verdict on a change.  To shrink is to be at most half of the least so far: what is rounded to
    a grid may circle among a few of its points, and fall in every iteration.  Nor is a fall from an
-   overshoot far beyond the size of y a contraction.  One ratio by an old matrix may
-   be luck: unless the change is rounding, the one before must agree.                          */
+   overshoot far beyond the size of y a contraction.                                           */
 static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p,
                                  gvi_real change)
 {
     const gvi_real all = (gvi_real)st->n, quarter = GVI__CONTRACTS,
                    noise = GVI__GRAIN*p->grain*(gvi_real)((st->s - J->k0)*st->n),
                    enough = gvi__larger(st->in.desc.tolerance, GVI__NEWTON_ENOUGH);
-    gvi_real ratio = 1, other = 1;
+    gvi_real ratio = 1;
 
     if (!gvi__finite(change)) return GVI__NOT_FINITE;
     st->in.newton.noise = noise;
     if (p->before > 0) ratio = change/gvi__smaller(p->before, all);
-    if (p->earlier > 0) other = p->before/gvi__smaller(p->earlier, all);
     gvi__newton_note(st, p, change, noise);
     const int at_floor = gvi__newton_at_floor(p, change, noise), contracts = p->rho < quarter;
 
-    const int confirmed = (p->fresh & 1 && p->holds) || change <= noise || change*other <= enough;
-    const int done = (p->each*ratio <= enough && confirmed) || p->left <= enough;
+    const int done = p->each*ratio <= enough || p->left <= enough;
     if (done && (p->holds || contracts)) return GVI__DONE;
 
     // rounding by a matrix that has contracted here asks for no other
@@ -6098,7 +6095,7 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
 /* Does y, whose residual has that norm, stay?  A change that is not small and has not reduced the
    residual is taken back, for a new matrix; or halved, if the matrix was new.  Where six halvings
    have not helped, the whole change stands: across a kink, or from one curve to the next, the way
-   down may lead up first.  And what seemed to be rounding but grows again was no rounding.    */
+   down may lead up first.                                                                     */
 static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p, gvi_real norm)
 {
     enum { HALVES = GVI__NEARER };
@@ -6118,13 +6115,7 @@ static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent
     }
 
     if (p->halves > 0) p->have = 0;                // another place: another matrix
-    if (at_floor && norm/16 > p->norm) {
-        p->before = 0;
-        p->least = p->left = GVI__MAX;
-        p->rho = GVI__CONTRACTS;
-    }
-
-    if (!(p->left < GVI__MAX)) p->norm = norm;
+    if (!at_floor) p->norm = norm;
     return 1;
 }
 
@@ -6165,16 +6156,6 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
     }
 
     return gvi__report_status(st, GVI_E_CONVERGENCE);
-}
-
-/* The sign of the determinant of a matrix.  Where the iteration contracts, that of the solution
-   has the same sign; along a branch of solutions it changes where they turn back in h.       */
-static int gvi__orientation(const gvi__matrix *J, size_t size)
-{
-    int sign = 1;
-    for (size_t k = 0; k < size; ++k)
-        if ((J->square[k*(size + 1)] < 0) != (J->pivot[k] > (gvi_real)k)) sign = -sign;
-    return sign;
 }
 
 // y := modes of the first `part` of its curve, and `slope` times what that leaves out
@@ -6228,15 +6209,13 @@ static gvi_real gvi__newton_distance(const gvi_stepper *st, const gvi_real *othe
    where the iteration contracts well from constant velocity, h/32 in any case.  If it then comes
    to the same solution, or to none, y is accepted.  Under constraints rounding of g is in every
    solution, and all of it where a step moves by roundings of q: what it makes counts as not far. */
-static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from,
-                                        const gvi__matrix *J)
+static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__newton *newton = &st->in.newton;
     const size_t all = gvi__unknowns(st, 0), modes = (size_t)(st->s*st->n);
     const gvi_real h = st->in.sized.h, close = GVI__CLOSE;
     const unsigned count = (unsigned)st->counters.newton_iterations,
                    enough = 32*(unsigned)st->in.desc.max_iterations;
-    const int sign = gvi__orientation(J, all);
     const gvi__matrix K = gvi__newton_matrix(st, 1, 0);
     gvi_real part = 1, factor = (gvi_real)0.5;
     int right = -1;                                                  // not known
@@ -6249,8 +6228,7 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
         gvi__newton_shorten(st, factor, newton->slope);
         gvi__copy(all, newton->y, newton->guess);
         gvi__newton_points(st, from, h*(part*factor));
-        const int found =
-            gvi__newton_solve(st, from, &K) == GVI_OK && gvi__orientation(&K, all) == sign;
+        const int found = gvi__newton_solve(st, from, &K) == GVI_OK;
         const gvi_real distance = found ? gvi__newton_distance(st, newton->guess) : 1,
                        within = gvi__larger(close, newton->noise);
         if (!found || !(distance <= within)) {
@@ -6263,7 +6241,7 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
         for (size_t k = 0; k < modes; ++k)
             newton->slope[k] += (newton->y[k] - newton->guess[k])/(1 - factor);
         if (factor > (gvi_real)0.5) {
-            if (distance < within/4) factor *= factor;
+            if (distance < within/4) factor *= factor;     // twice as far, a square of that
             continue;
         }
         gvi__newton_guess(st, 0);
@@ -6281,12 +6259,11 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
 enum { GVI__PLAIN, GVI__EXTRAPOLATED, GVI__HALVED };
 
 /* Newton's method for a step.  A solution is taken for the motion's where the iteration contracts
-   well from its start and the orientation is that of free motion; or else it is followed back. */
+   well from its start; or else it is followed back.                                           */
 static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query)
 {
     struct gvi__private *in = &st->in;
-    const size_t all = gvi__unknowns(st, 0);
-    gvi__matrix J = gvi__newton_matrix(st, query, how == GVI__HALVED);
+    const gvi__matrix J = gvi__newton_matrix(st, query, how == GVI__HALVED);
 
     // few points see little of what is between
     const gvi_real far = st->s > 2 ? GVI__CONTRACTS : GVI__CLOSE;
@@ -6304,11 +6281,8 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
         old = 0;
     }
 
-    if (status == GVI_OK
-        && (J.halves || in->newton.bend > far || gvi__orientation(&J, all) < 0)) {
-        J.halves = 0;
-        status = gvi__newton_connected(st, from, &J);
-    }
+    if (status == GVI_OK && (J.halves || in->newton.bend > far))
+        status = gvi__newton_connected(st, from);
 
     if (status == GVI_OK && gvi__con_unknowns(st) > 0) status = gvi__con_end(st);
     if (status != GVI_OK) return status;
@@ -8336,7 +8310,7 @@ GVI__COLD void gvi__rolling_layout(struct gvi__private *in, gvi__arena *a)
 /* --------------------------------------- CONSTRAINTS BY NEWTON'S METHOD
 
    Unknown y[s*n + e*m + a] is -lambda_a at D_e, e = 0..s-1, and the rows behind those of (1) are
-   -g_a at D_(e+1).  So signed, the determinant of free motion is positive.                    */
+   -g_a at D_(e+1).                                                                            */
 
 static size_t gvi__con_unknowns(const gvi_stepper *st)
 {
@@ -8503,8 +8477,8 @@ GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int row, int point)
 
 /* Did the rank of G change between two points of the step?  What those before row j leave of it is
    c G, c the row of L^-1: where that is a small part of row j at a point, has it turned by more
-   than 25 degrees at the next, or almost vanished?  It passes 0 where the motion branches,
-   and has another direction on each branch: the step must not choose.                        */
+   than 25 degrees at the next?  It passes 0 where the motion branches, and has another direction
+   on each branch: the step must not choose.                                                   */
 GVI__CALLED gvi_status gvi__con_end(gvi_stepper *st)
 {
     struct gvi__private *in = &st->in;
@@ -8534,8 +8508,8 @@ GVI__CALLED gvi_status gvi__con_end(gvi_stepper *st)
             }
         }
         const gvi_real part = gvi__dot(n, now, now), there = gvi__dot(n, next, next);
-        const int goes_on = 256*there > part
-            && gvi__dot(n, now, next) > (gvi_real)0.9*GVI_SQRT(part)*GVI_SQRT(there);
+        const int goes_on =
+            gvi__dot(n, now, next) > (gvi_real)0.9*GVI_SQRT(part)*GVI_SQRT(there);     // cos 25
         if (GVI__LOST*GVI__LOST*part < all && !goes_on)
             return gvi__report_row(st, GVI_E_SINGULAR, j, e);
     }
@@ -8777,16 +8751,16 @@ static gvi_real gvi__power(gvi_real x, int k)
 }
 
 /* Are the highest modes of coordinate i nothing but rounding?  Of the terms of its row: P and A,
-   where V is M^-1 (P - A).  Or of t and q at its points, which is as large in all modes.  all: the
-   size of the velocity, or in positions of p.                                                 */
-static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real low, gvi_real all)
+   where V is M^-1 (P - A).  Or of t and q at its points (test_resolution).  all: the size of the
+   velocity, or in positions of p.                                                             */
+static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real all)
 {
     const struct gvi__private *in = &st->in;
     const int forces = in->stages == 1;
     const gvi_real *row = (forces ? in->work.F : in->work.V) + i*in->R;
     const gvi_real h = GVI_ABS(in->sized.h), inertia = gvi__place_inertia(st, i),
                    p = GVI_ABS(in->state.p[i]), dp = GVI_ABS(in->step.p[i]),
-                   first = row[0], last = row[st->r - 1], place = GVI__PLACE*GVI__EPS;
+                   first = row[0], last = row[st->r - 1];
     gvi_real terms = GVI_ABS(first) + GVI_ABS(last), change = GVI_ABS(last - first),
              reach = GVI_ABS(in->state.q[i])/all;
     if (forces) {
@@ -8799,7 +8773,7 @@ static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real 
     }
 
     reach = (GVI_ABS(st->t) + reach)/h;
-    return high <= place*terms || (low <= 4*high && high <= place*change*reach);
+    return high <= GVI__PLACE*GVI__EPS*gvi__larger(terms, change*reach);
 }
 
 /* Mode K of coordinate i by the change of mode K - 1 since the step before; *was: its size there,
@@ -8836,9 +8810,7 @@ static gvi_real gvi__mode_fall(int top, const gvi_real *y)
 static gvi_real gvi__missed(const gvi_stepper *st, int i, const gvi_real *y, gvi_real ends,
                             gvi_real turn, gvi_real *all)
 {
-    const int top = st->in.dial.top, e = 2*st->s - top,
-              stiff = st->formulation == GVI_NEWTON && st->in.chosen != GVI_NEWTON
-                      && !gvi__constrained(st);
+    const int top = st->in.dial.top, e = 2*st->s - top;
     gvi_real high = y[0] + y[1], low = y[2] + y[3], since = 0, was = 0;
 
     *all = ends + high + low;
@@ -8848,8 +8820,7 @@ static gvi_real gvi__missed(const gvi_stepper *st, int i, const gvi_real *y, gvi
         low = top == 3 ? y[1] + y[2] : turn;
     }
     // next to nothing: a force as simple as the curve, and no shorter step shows more of it
-    if (!(high > 0) || gvi__modes_end(st, i, high, low, *all)) return high*GVI__EPS*GVI__EPS;
-    if (stiff) return high;
+    if (!(high > 0) || gvi__modes_end(st, i, high, *all)) return high*GVI__EPS*GVI__EPS;
 
     gvi_real fall = low > high ? high/low : 1;                   // rho^2
     if (top == 2) fall *= GVI_SQRT(fall);                        // from y_1, or nearly
@@ -8875,15 +8846,14 @@ static gvi_real gvi__missed(const gvi_stepper *st, int i, const gvi_real *y, gvi
    rho is the fall from mode to mode, last from pair to pair and within the highest: forces that
    bend inside a step leave a tail that is flat there.  The step lacks about y_2s, which its points
    take for modes that they see: high rho^e; ten times that, since a short tail may be flatter than
-   it looks.  Stiff forces, for which Newton's method had to take over, turn all of y_s into an
-   error: high.  (With constraints it takes over for other reasons.)  Below K = 6 two pairs count;
-   below 5 low is a constant force as well, which falls nowhere, and below 4 single modes count.
-   There y_(K-1) of the step before, y', says more: |y_(K-1) - y'|/(4 K - 2) is a mode K, too, and
-   rho at least half of both over |y_(K-1)| + |y'|.  In positions the modes are those of M v, from
-   the forces.  Where motion is far below max |v| + max |q|/h, each times sqrt(M_ii), and below max
-   |v| + |q_i|/h, so that neither a light body nor one near the origin counts as at rest, some eps
-   of the smaller of these are rounding of forces that cancel.  Under constraints rounding of g over
-   h is in every velocity, and is all there is of one that starts from rest: no error of h.     */
+   it looks.  Below K = 6 two pairs count; below 5 low is a constant force as well, which falls
+   nowhere, and below 4 single modes count.  There y_(K-1) of the step before, y', says more:
+   |y_(K-1) - y'|/(4 K - 2) is a mode K, too, and rho at least half of both over |y_(K-1)| + |y'|.
+   In positions the modes are those of M v, from the forces.  Where motion is far below max |v| +
+   max |q|/h, each times sqrt(M_ii), and below max |v| + |q_i|/h, so that neither a light body nor
+   one near the origin counts as at rest, some eps of the smaller of these are rounding of forces
+   that cancel.  Under constraints rounding of g over h is in every velocity, and is all there is
+   of one that starts from rest: no error of h.                                                */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
@@ -9047,7 +9017,8 @@ static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 }
 
 /* The same after a failure.  The length is barred for a while, longer each time.  Where the fixed
-   point failed, shorter steps come first; Newton's method is for where they fail, too.        */
+   point failed, shorter steps come first; Newton's method is for where they fail, too.
+   (test_resolution has both.)                                                                 */
 static gvi_real gvi__rungs_down(gvi_stepper *st, gvi_status status, gvi_real at, gvi_real room)
 {
     struct gvi__dial *dial = &st->in.dial;
