@@ -8751,16 +8751,17 @@ static gvi_real gvi__power(gvi_real x, int k)
 }
 
 /* Are the highest modes of coordinate i nothing but rounding?  Of the terms of its row: P and A,
-   where V is M^-1 (P - A).  Or of t and q at its points (test_resolution).  all: the size of the
-   velocity, or in positions of p.                                                             */
-static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real all)
+   where V is M^-1 (P - A).  Or of t and q at its points, which is as large in all modes, to a factor
+   of 4 (test_resolution; in float it misses that, too).  all: the size of the velocity, or in
+   positions of p.                                                                             */
+static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real low, gvi_real all)
 {
     const struct gvi__private *in = &st->in;
     const int forces = in->stages == 1;
     const gvi_real *row = (forces ? in->work.F : in->work.V) + i*in->R;
     const gvi_real h = GVI_ABS(in->sized.h), inertia = gvi__place_inertia(st, i),
                    p = GVI_ABS(in->state.p[i]), dp = GVI_ABS(in->step.p[i]),
-                   first = row[0], last = row[st->r - 1];
+                   first = row[0], last = row[st->r - 1], place = GVI__PLACE*GVI__EPS;
     gvi_real terms = GVI_ABS(first) + GVI_ABS(last), change = GVI_ABS(last - first),
              reach = GVI_ABS(in->state.q[i])/all;
     if (forces) {
@@ -8773,7 +8774,7 @@ static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real 
     }
 
     reach = (GVI_ABS(st->t) + reach)/h;
-    return high <= GVI__PLACE*GVI__EPS*gvi__larger(terms, change*reach);
+    return high <= place*terms || (low <= 4*high && high <= place*change*reach);
 }
 
 /* Mode K of coordinate i by the change of mode K - 1 since the step before; *was: its size there,
@@ -8820,7 +8821,7 @@ static gvi_real gvi__missed(const gvi_stepper *st, int i, const gvi_real *y, gvi
         low = top == 3 ? y[1] + y[2] : turn;
     }
     // next to nothing: a force as simple as the curve, and no shorter step shows more of it
-    if (!(high > 0) || gvi__modes_end(st, i, high, *all)) return high*GVI__EPS*GVI__EPS;
+    if (!(high > 0) || gvi__modes_end(st, i, high, low, *all)) return high*GVI__EPS*GVI__EPS;
 
     gvi_real fall = low > high ? high/low : 1;                   // rho^2
     if (top == 2) fall *= GVI_SQRT(fall);                        // from y_1, or nearly

@@ -52,7 +52,7 @@ CONDITIONS = [   # what it is, the tests near it, what stands in gvi.h and what 
     ('is d2L/dv2 regular?', 'constraints_newton newton loops constraints jumps boundary',
      [('gvi_status status = gvi__check_regular(st);\n    if (status == GVI_OK) status = gvi__jacobian_exact', 'gvi_status status = GVI_OK; (void)gvi__check_regular;\n    if (status == GVI_OK) status = gvi__jacobian_exact')]),
     ('modes that are rounding of t and q', 'resolution loops constraints',
-     [('gvi__larger(terms, change*reach);', 'terms, (void)(change*reach);')]),
+     [('high <= place*change*reach);', 'high < 0*change*reach);')]),
     ('a length that failed is barred', 'resolution loops constraints',
      [('if (dial->wait > 0 && up > 0)', 'if (0)')]),
     ("shorter steps before Newton's method", 'resolution loops constraints',

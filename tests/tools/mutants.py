@@ -84,7 +84,7 @@ MUTANTS = [
     ("resolution", "const gvi_real whole = fastest + farthest/h, *shift", "const gvi_real whole = fastest, *shift"),
     ("resolution", "if (at_rest || (shift && forces))\n            rounding",
               "if (0)\n            rounding"),
-    ("resolution", "if (!(high > 0) || gvi__modes_end(st, i, high, *all)) return",
+    ("resolution", "if (!(high > 0) || gvi__modes_end(st, i, high, low, *all)) return",
               "if (!(high > 0)) return"),
     ("resolution", "return high*gvi__smaller(lacks, 1);", "return high*lacks*gvi__power((gvi_real)0.1, st->s/2);"),
     ("resolution", "const int degree = st->s < GVI__DEEP ? st->s : GVI__DEEP;", "const int degree = st->s;"),
