@@ -1698,8 +1698,8 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 /* ------------------------------------------------------------ TOLERANCES
 
    The constants of judgement that decide most; those of one place stand there, with their reason.
-   `make tolerances` halves and doubles each, and counts the iterations of fixed runs and the tests
-   that then fail.  But for GVI__LEAST, which has to be below 1, none changes the iterations by
+   `make tolerances` halves and doubles all of them, and counts the iterations of fixed runs and
+   the tests that then fail.  But for GVI__LEAST, which has to be below 1, none changes the iterations by
    1 %; what each does is in docs/design.md.                                                   */
 
 // rounding, in eps
@@ -4520,7 +4520,8 @@ GVI__OFFERED gvi_real *gvi__rows_of_A(const struct gvi__private *in) { return in
 /* d(dL/dv)/dv at one point, n*n, by differences of dL/dv, to `hessian`.  x has been evaluated, and
    x->v is v.  A difference moves P_j by sqrt(eps) of what there is of momentum: P_j itself, which
    need not be 0 with v, and from rest p_j that is wanted, or in a step, where p is NULL, h f_j.
-   It is sqrt(eps) of v_j where that moves P_j more, and shorter where it leaves L's domain.   */
+   It is sqrt(eps) of v_j where that moves P_j more, and shorter where it leaves L's domain.
+   (test_newton has rest and a large P.)                                                       */
 static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_real *v,
                                         const gvi_real *p, gvi_real *hessian)
 {
@@ -6138,6 +6139,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
         if (!gvi__newton_stays(st, J, &p, gvi__residual(st, from, J, &p))) continue;
         p.fresh = (p.fresh & 1) << 1 | !p.have;
         if (!p.have) {
+            // without that, hopeless steps of an orbit by a dial of 1e-3 take twice as long
             if (++made > in->desc.max_iterations/4 + 2) break;
             status = gvi__jacobian(st, J);
             if (status != GVI_OK) return status;
@@ -6233,7 +6235,7 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
                        within = gvi__larger(close, newton->noise);
         if (!found || !(distance <= within)) {
             factor = GVI_SQRT(factor);
-            if (factor > (gvi_real)0.9998) right = 0;
+            if (factor > (gvi_real)0.9998) right = 0;            // 2^(-1/4096)
             continue;
         }
         part *= factor;
@@ -8751,8 +8753,8 @@ static gvi_real gvi__power(gvi_real x, int k)
 }
 
 /* Are the highest modes of coordinate i nothing but rounding?  Of the terms of its row: P and A,
-   where V is M^-1 (P - A).  Or of t and q at its points, which is as large in all modes, to a factor
-   of 4 (test_resolution; in float it misses that, too).  all: the size of the velocity, or in
+   where V is M^-1 (P - A).  Or of t and q at its points, which is as large in all modes, to a
+   factor of 4 (test_resolution; that, in float alone).  all: the size of the velocity, or in
    positions of p.                                                                             */
 static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real low, gvi_real all)
 {

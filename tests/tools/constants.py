@@ -9,6 +9,8 @@ FORMULAS = [   # a text in the line; what its numbers are
     (r"4\*dial->top|8\*s \+ 4|2\*\(i/n\) \+ 3|2\*\(j/n\) \+ 3", "norms of Legendre polynomials"),
     (r"power \*= 4", "Romberg's scheme: halves of a difference of even order"),
     (r"/3;", "the mode of a parabola"),
+    (r"power \*= \(gvi_real\)2\.56", "Richardson's scheme: (8/5)^2, differences of even order"),
+    (r"distance < within/4", "what a line misses, twice as far"),
     (r"4\*e\) \+ 8\*mantissa|k/4\) - 1|4\*octave", "four rungs an octave"),
     (r"DIG > 24", "where two steps are kept: gvi__layout"),
     (r"0\.7390851", "any time"),
