@@ -1698,8 +1698,8 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 /* ------------------------------------------------------------ TOLERANCES
 
    The constants of judgement that decide most; those of one place stand there, with their reason.
-   `make tolerances` halves and doubles each, and counts the iterations of fixed runs and the tests
-   that then fail.  But for GVI__LEAST, which has to be below 1, none changes the iterations by
+   `make tolerances` halves and doubles all of them, and counts the iterations of fixed runs and
+   the tests that then fail.  But for GVI__LEAST, which has to be below 1, none changes the iterations by
    1 %; what each does is in docs/design.md.                                                   */
 
 // rounding, in eps
@@ -1732,8 +1732,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 
 // Newton's method: contraction
 #define GVI__CONTRACTS ((gvi_real)0.25)    // keeps its matrix; a curve is near
-#define GVI__CLOSE ((gvi_real)0.03125)     // to a linear prediction: the same branch; linear
-#define GVI__SHORT 64                      // h over this: free motion leads to the motion
+#define GVI__CLOSE ((gvi_real)0.03125)     // to a prediction, to a line, of h to 0: near
 #define GVI__FADES (1 << GVI__DIG/6)       // a third of the digits: where a step failed, a row ends
 #define GVI__LOST 4                        // of a pivot's entry what is left: rank may be changing
 #define GVI__WRONG 512                     // of an entry of G, what it is off times this: wrong
@@ -4521,7 +4520,8 @@ GVI__OFFERED gvi_real *gvi__rows_of_A(const struct gvi__private *in) { return in
 /* d(dL/dv)/dv at one point, n*n, by differences of dL/dv, to `hessian`.  x has been evaluated, and
    x->v is v.  A difference moves P_j by sqrt(eps) of what there is of momentum: P_j itself, which
    need not be 0 with v, and from rest p_j that is wanted, or in a step, where p is NULL, h f_j.
-   It is sqrt(eps) of v_j where that moves P_j more, and shorter where it leaves L's domain.   */
+   It is sqrt(eps) of v_j where that moves P_j more, and shorter where it leaves L's domain.
+   (test_newton has rest and a large P.)                                                       */
 static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_real *v,
                                         const gvi_real *p, gvi_real *hessian)
 {
@@ -6068,25 +6068,22 @@ static int gvi__newton_at_floor(gvi__descent *p, gvi_real change, gvi_real noise
 
 /* The verdict on a change.  To shrink is to be at most half of the least so far: what is rounded to
    a grid may circle among a few of its points, and fall in every iteration.  Nor is a fall from an
-   overshoot far beyond the size of y a contraction.  One ratio by an old matrix may
-   be luck: unless the change is rounding, the one before must agree.                          */
+   overshoot far beyond the size of y a contraction.                                           */
 static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p,
                                  gvi_real change)
 {
     const gvi_real all = (gvi_real)st->n, quarter = GVI__CONTRACTS,
                    noise = GVI__GRAIN*p->grain*(gvi_real)((st->s - J->k0)*st->n),
                    enough = gvi__larger(st->in.desc.tolerance, GVI__NEWTON_ENOUGH);
-    gvi_real ratio = 1, other = 1;
+    gvi_real ratio = 1;
 
     if (!gvi__finite(change)) return GVI__NOT_FINITE;
     st->in.newton.noise = noise;
     if (p->before > 0) ratio = change/gvi__smaller(p->before, all);
-    if (p->earlier > 0) other = p->before/gvi__smaller(p->earlier, all);
     gvi__newton_note(st, p, change, noise);
     const int at_floor = gvi__newton_at_floor(p, change, noise), contracts = p->rho < quarter;
 
-    const int confirmed = (p->fresh & 1 && p->holds) || change <= noise || change*other <= enough;
-    const int done = (p->each*ratio <= enough && confirmed) || p->left <= enough;
+    const int done = p->each*ratio <= enough || p->left <= enough;
     if (done && (p->holds || contracts)) return GVI__DONE;
 
     // rounding by a matrix that has contracted here asks for no other
@@ -6099,7 +6096,7 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
 /* Does y, whose residual has that norm, stay?  A change that is not small and has not reduced the
    residual is taken back, for a new matrix; or halved, if the matrix was new.  Where six halvings
    have not helped, the whole change stands: across a kink, or from one curve to the next, the way
-   down may lead up first.  And what seemed to be rounding but grows again was no rounding.    */
+   down may lead up first.                                                                     */
 static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p, gvi_real norm)
 {
     enum { HALVES = GVI__NEARER };
@@ -6119,13 +6116,7 @@ static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent
     }
 
     if (p->halves > 0) p->have = 0;                // another place: another matrix
-    if (at_floor && norm/16 > p->norm) {
-        p->before = 0;
-        p->least = p->left = GVI__MAX;
-        p->rho = GVI__CONTRACTS;
-    }
-
-    if (!(p->left < GVI__MAX)) p->norm = norm;
+    if (!at_floor) p->norm = norm;
     return 1;
 }
 
@@ -6148,6 +6139,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
         if (!gvi__newton_stays(st, J, &p, gvi__residual(st, from, J, &p))) continue;
         p.fresh = (p.fresh & 1) << 1 | !p.have;
         if (!p.have) {
+            // without that, hopeless steps of an orbit by a dial of 1e-3 take twice as long
             if (++made > in->desc.max_iterations/4 + 2) break;
             status = gvi__jacobian(st, J);
             if (status != GVI_OK) return status;
@@ -6166,16 +6158,6 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
     }
 
     return gvi__report_status(st, GVI_E_CONVERGENCE);
-}
-
-/* The sign of the determinant of a matrix.  Where the iteration contracts, that of the solution
-   has the same sign; along a branch of solutions it changes where they turn back in h.       */
-static int gvi__orientation(const gvi__matrix *J, size_t size)
-{
-    int sign = 1;
-    for (size_t k = 0; k < size; ++k)
-        if ((J->square[k*(size + 1)] < 0) != (J->pivot[k] > (gvi_real)k)) sign = -sign;
-    return sign;
 }
 
 // y := modes of the first `part` of its curve, and `slope` times what that leaves out
@@ -6200,7 +6182,7 @@ static void gvi__newton_shorten(gvi_stepper *st, gvi_real part, const gvi_real *
 }
 
 /* How far is y from `other`? The largest distance of a coordinate, in units of its own size there
-   and at h, but no less than 1/64 of the largest, each times sqrt(M_ii).                     */
+   and at h, but no less than 1/32 of the largest, each times sqrt(M_ii).                     */
 static gvi_real gvi__newton_distance(const gvi_stepper *st, const gvi_real *other)
 {
     const struct gvi__private *in = &st->in;
@@ -6216,7 +6198,7 @@ static gvi_real gvi__newton_distance(const gvi_stepper *st, const gvi_real *othe
 
     if (!(most > 0)) return 0;
     for (int i = 0; i < st->n; ++i) {
-        const gvi_real far = moved[i]/(size[i] + most/64);
+        const gvi_real far = moved[i]/(size[i] + GVI__CLOSE*most);
         if (!(far <= distance)) distance = far;
     }
     return distance;
@@ -6226,18 +6208,16 @@ static gvi_real gvi__newton_distance(const gvi_stepper *st, const gvi_real *othe
    followed back to shorter steps, from length to length by a prediction: the same curve, changed
    as it changed last.  From a continuous branch the prediction is not far when the lengths are
    close; where it is however close they are, the branch has turned back.  A length is enough
-   where the iteration contracts well from constant velocity, h/64 in any case.  If it then comes
+   where the iteration contracts well from constant velocity, h/32 in any case.  If it then comes
    to the same solution, or to none, y is accepted.  Under constraints rounding of g is in every
    solution, and all of it where a step moves by roundings of q: what it makes counts as not far. */
-static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from,
-                                        const gvi__matrix *J)
+static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__newton *newton = &st->in.newton;
     const size_t all = gvi__unknowns(st, 0), modes = (size_t)(st->s*st->n);
     const gvi_real h = st->in.sized.h, close = GVI__CLOSE;
     const unsigned count = (unsigned)st->counters.newton_iterations,
                    enough = 32*(unsigned)st->in.desc.max_iterations;
-    const int sign = gvi__orientation(J, all);
     const gvi__matrix K = gvi__newton_matrix(st, 1, 0);
     gvi_real part = 1, factor = (gvi_real)0.5;
     int right = -1;                                                  // not known
@@ -6250,13 +6230,12 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
         gvi__newton_shorten(st, factor, newton->slope);
         gvi__copy(all, newton->y, newton->guess);
         gvi__newton_points(st, from, h*(part*factor));
-        const int found =
-            gvi__newton_solve(st, from, &K) == GVI_OK && gvi__orientation(&K, all) == sign;
+        const int found = gvi__newton_solve(st, from, &K) == GVI_OK;
         const gvi_real distance = found ? gvi__newton_distance(st, newton->guess) : 1,
                        within = gvi__larger(close, newton->noise);
         if (!found || !(distance <= within)) {
             factor = GVI_SQRT(factor);
-            if (factor > (gvi_real)0.9998) right = 0;
+            if (factor > (gvi_real)0.9998) right = 0;            // 2^(-1/4096)
             continue;
         }
         part *= factor;
@@ -6264,12 +6243,12 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
         for (size_t k = 0; k < modes; ++k)
             newton->slope[k] += (newton->y[k] - newton->guess[k])/(1 - factor);
         if (factor > (gvi_real)0.5) {
-            if (distance < within/4) factor *= factor;
+            if (distance < within/4) factor *= factor;     // twice as far, a square of that
             continue;
         }
         gvi__newton_guess(st, 0);
         const int other = gvi__newton_solve(st, from, &K) == GVI_OK;
-        if ((other && newton->bend <= close) || part < 1/(gvi_real)GVI__SHORT)
+        if ((other && newton->bend <= close) || part < close)
             right = !other || gvi__newton_distance(st, newton->branch) <= within;
     }
 
@@ -6282,12 +6261,11 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
 enum { GVI__PLAIN, GVI__EXTRAPOLATED, GVI__HALVED };
 
 /* Newton's method for a step.  A solution is taken for the motion's where the iteration contracts
-   well from its start and the orientation is that of free motion; or else it is followed back. */
+   well from its start; or else it is followed back.                                           */
 static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query)
 {
     struct gvi__private *in = &st->in;
-    const size_t all = gvi__unknowns(st, 0);
-    gvi__matrix J = gvi__newton_matrix(st, query, how == GVI__HALVED);
+    const gvi__matrix J = gvi__newton_matrix(st, query, how == GVI__HALVED);
 
     // few points see little of what is between
     const gvi_real far = st->s > 2 ? GVI__CONTRACTS : GVI__CLOSE;
@@ -6305,11 +6283,8 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
         old = 0;
     }
 
-    if (status == GVI_OK
-        && (J.halves || in->newton.bend > far || gvi__orientation(&J, all) < 0)) {
-        J.halves = 0;
-        status = gvi__newton_connected(st, from, &J);
-    }
+    if (status == GVI_OK && (J.halves || in->newton.bend > far))
+        status = gvi__newton_connected(st, from);
 
     if (status == GVI_OK && gvi__con_unknowns(st) > 0) status = gvi__con_end(st);
     if (status != GVI_OK) return status;
@@ -6702,7 +6677,7 @@ static int gvi__gram_pivot(const gvi_stepper *st, int S, gvi_real *A, int i, gvi
         A[(i*m + j)*S] = l;
         rest -= l*u;
     }
-    for (int j = from; j < i && GVI_ABS(rest) < was/16; ++j) {
+    for (int j = from; j < i && GVI_ABS(rest)*(GVI__LOST*GVI__LOST) < was; ++j) {
         const gvi_real l = A[(i*m + j)*S];
         size += l*l*gvi__entry(st, S, j, A);
     }
@@ -7181,7 +7156,7 @@ static void gvi__drift_move(gvi_stepper *st, const gvi__origin *from, gvi_real h
 
 /* RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, from a simplified Newton iteration.  A
    row is rounding by what q1 was added up from, q0 and the paths, which cancel where q1 is near 0.
-   An error four times the least so far is divergence.                                         */
+   An error four times the least so far is divergence, as far as the two are no rounding.      */
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *in = &st->in;
@@ -7208,7 +7183,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         if (!gvi__finite(size) && !GVI__LOOKS(st) && before*GVI__EPS < GVI__FAR)
             return gvi__report_status(st, GVI_E_NON_FINITE);
         least = gvi__smaller(size, least);
-        if (!gvi__finite(size) || k > 64 || size > 4*(least + 256))
+        if (!gvi__finite(size) || k > in->desc.max_iterations || size > 4*(least + GVI__GRAIN))
             return gvi__report_status(st, GVI_E_CONVERGENCE);
         before = size;
         gvi__drift_move(st, from, h, path);
@@ -7246,8 +7221,9 @@ GVI__COLD int gvi__doubtful(const gvi_stepper *st, const gvi_real *q, int a, gvi
 }
 
 /* Is each g_a within 4096 roundings, as far as these are known, or as measured?  To measure, take
-   1/4096 of Newton's correction, forwards and back, and less: if g_a follows both, to a quarter of
-   the change that G at both ends tells, its rounding is below that, and g_a is none.  Of a row that
+   1/4096 of Newton's correction, forwards and back, and less, down to eps of that: if g_a follows
+   both, to a quarter of the change that G at both ends tells, its rounding is below that, and g_a
+   is none.  Of a row that
    is left out, what those before it do not explain (A = L D L': L^-1 g) may be a contradiction,
    which no move shows.  In a step (`start` 0) the others are as exact as its iteration made
    them.                                                                                       */
@@ -7284,7 +7260,7 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
     if (!gvi__finite(gvi__norm1(n, d))) refused = off;
     gvi__zero((size_t)m, ahead);
     gvi_real part = 1/GVI__HELD;
-    for (int k = 0; k < 34 && refused < 0; ++k) {
+    for (int k = 0; part > GVI__EPS/GVI__HELD && refused < 0; ++k) {
         const gvi_real step = k % 2 ? -part : part;
         gvi__add_scaled(n, step, d, q, next);
         if (k % 2) part /= 8;
@@ -8026,7 +8002,7 @@ GVI__COLD gvi_status gvi__hold_rate(gvi_stepper *st, const gvi_real *v, const gv
     return GVI_OK;
 }
 
-/* A time in which much changes, |p||q|/p'v, is the first delta, a power of 2, times 8 or more.
+/* A time in which much changes, |p||q|/p'v or 1, is the first delta, a power of 2, times 8 or more.
    d2L/dv2 by differences is not A to rounding, so what it leaves is found once more.          */
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
 {
@@ -8055,8 +8031,8 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
 
     const gvi_real terms = m > 0 && status == GVI_OK ? gvi__rate_terms(st, v) : 0;
     for (int i = 0; i < n; ++i) size += GVI_ABS(st->p[i]*st->q[i]);
-    gvi_real time = size > 0 ? size/GVI_ABS(gvi__dot(n, st->p, v)) : 1;
-    if (!gvi__finite(time)) time = 8;
+    gvi_real time = size/GVI_ABS(gvi__dot(n, st->p, v));
+    if (!(time > 0) || !gvi__finite(time)) time = 1;
     int exponent;
     (void)GVI_FREXP(time, &exponent);
     const gvi_real delta = GVI_LDEXP(1, exponent - 4);
@@ -8202,7 +8178,7 @@ static gvi_status gvi__find_nearest(gvi_stepper *st, gvi_real t, const gvi_real 
 
         before = change;
         change = gvi__approach(st, q, share, way, &size);
-        if (change > before && share > (gvi_real)0.02) share /= 2;
+        if (change > before && share*(1 << GVI__NEARER) > 1) share /= 2;
     }
 }
 
@@ -8351,7 +8327,7 @@ GVI__COLD void gvi__rolling_layout(struct gvi__private *in, gvi__arena *a)
 /* --------------------------------------- CONSTRAINTS BY NEWTON'S METHOD
 
    Unknown y[s*n + e*m + a] is -lambda_a at D_e, e = 0..s-1, and the rows behind those of (1) are
-   -g_a at D_(e+1).  So signed, the determinant of free motion is positive.                    */
+   -g_a at D_(e+1).                                                                            */
 
 static size_t gvi__con_unknowns(const gvi_stepper *st)
 {
@@ -8518,8 +8494,8 @@ GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int row, int point)
 
 /* Did the rank of G change between two points of the step?  What those before row j leave of it is
    c G, c the row of L^-1: where that is a small part of row j at a point, has it turned by more
-   than 25 degrees at the next, or almost vanished?  It passes 0 where the motion branches,
-   and has another direction on each branch: the step must not choose.                        */
+   than 25 degrees at the next?  It passes 0 where the motion branches, and has another direction
+   on each branch: the step must not choose.                                                   */
 GVI__CALLED gvi_status gvi__con_end(gvi_stepper *st)
 {
     struct gvi__private *in = &st->in;
@@ -8549,8 +8525,8 @@ GVI__CALLED gvi_status gvi__con_end(gvi_stepper *st)
             }
         }
         const gvi_real part = gvi__dot(n, now, now), there = gvi__dot(n, next, next);
-        const int goes_on = 256*there > part
-            && gvi__dot(n, now, next) > (gvi_real)0.9*GVI_SQRT(part)*GVI_SQRT(there);
+        const int goes_on =
+            gvi__dot(n, now, next) > (gvi_real)0.9*GVI_SQRT(part)*GVI_SQRT(there);     // cos 25
         if (GVI__LOST*GVI__LOST*part < all && !goes_on)
             return gvi__report_row(st, GVI_E_SINGULAR, j, e);
     }
@@ -8792,8 +8768,9 @@ static gvi_real gvi__power(gvi_real x, int k)
 }
 
 /* Are the highest modes of coordinate i nothing but rounding?  Of the terms of its row: P and A,
-   where V is M^-1 (P - A).  Or of t and q at its points, which is as large in all modes.  all: the
-   size of the velocity, or in positions of p.                                                 */
+   where V is M^-1 (P - A).  Or of t and q at its points, which is as large in all modes, to a
+   factor of 4 (test_resolution; that, in float alone).  all: the size of the velocity, or in
+   positions of p.                                                                             */
 static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real low, gvi_real all)
 {
     const struct gvi__private *in = &st->in;
@@ -8851,9 +8828,7 @@ static gvi_real gvi__mode_fall(int top, const gvi_real *y)
 static gvi_real gvi__missed(const gvi_stepper *st, int i, const gvi_real *y, gvi_real ends,
                             gvi_real turn, gvi_real *all)
 {
-    const int top = st->in.dial.top, e = 2*st->s - top,
-              stiff = st->formulation == GVI_NEWTON && st->in.chosen != GVI_NEWTON
-                      && !gvi__constrained(st);
+    const int top = st->in.dial.top, e = 2*st->s - top;
     gvi_real high = y[0] + y[1], low = y[2] + y[3], since = 0, was = 0;
 
     *all = ends + high + low;
@@ -8864,7 +8839,6 @@ static gvi_real gvi__missed(const gvi_stepper *st, int i, const gvi_real *y, gvi
     }
     // next to nothing: a force as simple as the curve, and no shorter step shows more of it
     if (!(high > 0) || gvi__modes_end(st, i, high, low, *all)) return high*GVI__EPS*GVI__EPS;
-    if (stiff) return high;
 
     gvi_real fall = low > high ? high/low : 1;                   // rho^2
     if (top == 2) fall *= GVI_SQRT(fall);                        // from y_1, or nearly
@@ -8890,15 +8864,14 @@ static gvi_real gvi__missed(const gvi_stepper *st, int i, const gvi_real *y, gvi
    rho is the fall from mode to mode, last from pair to pair and within the highest: forces that
    bend inside a step leave a tail that is flat there.  The step lacks about y_2s, which its points
    take for modes that they see: high rho^e; ten times that, since a short tail may be flatter than
-   it looks.  Stiff forces, for which Newton's method had to take over, turn all of y_s into an
-   error: high.  (With constraints it takes over for other reasons.)  Below K = 6 two pairs count;
-   below 5 low is a constant force as well, which falls nowhere, and below 4 single modes count.
-   There y_(K-1) of the step before, y', says more: |y_(K-1) - y'|/(4 K - 2) is a mode K, too, and
-   rho at least half of both over |y_(K-1)| + |y'|.  In positions the modes are those of M v, from
-   the forces.  Where motion is far below max |v| + max |q|/h, each times sqrt(M_ii), and below max
-   |v| + |q_i|/h, so that neither a light body nor one near the origin counts as at rest, some eps
-   of the smaller of these are rounding of forces that cancel.  Under constraints rounding of g over
-   h is in every velocity, and is all there is of one that starts from rest: no error of h.     */
+   it looks.  Below K = 6 two pairs count; below 5 low is a constant force as well, which falls
+   nowhere, and below 4 single modes count.  There y_(K-1) of the step before, y', says more:
+   |y_(K-1) - y'|/(4 K - 2) is a mode K, too, and rho at least half of both over |y_(K-1)| + |y'|.
+   In positions the modes are those of M v, from the forces.  Where motion is far below max |v| +
+   max |q|/h, each times sqrt(M_ii), and below max |v| + |q_i|/h, so that neither a light body nor
+   one near the origin counts as at rest, some eps of the smaller of these are rounding of forces
+   that cancel.  Under constraints rounding of g over h is in every velocity, and is all there is
+   of one that starts from rest: no error of h.                                                */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
@@ -9062,7 +9035,8 @@ static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 }
 
 /* The same after a failure.  The length is barred for a while, longer each time.  Where the fixed
-   point failed, shorter steps come first; Newton's method is for where they fail, too.        */
+   point failed, shorter steps come first; Newton's method is for where they fail, too.
+   (test_resolution has both.)                                                                 */
 static gvi_real gvi__rungs_down(gvi_stepper *st, gvi_status status, gvi_real at, gvi_real room)
 {
     struct gvi__dial *dial = &st->in.dial;

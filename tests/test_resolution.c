@@ -340,6 +340,44 @@ TEST(shorter_steps_come_before_newtons_method)
     assert_true(gvi_step(&st, R(0.25)) != GVI_E_CONVERGENCE);
 }
 
+/* A weight on a stiff rod: the fixed point, not the resolution, says how long a step may be.  A length that failed is barred
+   for four steps or more, so at most one step in four is preceded by a failure */
+GVI_EACH(on_a_rod, 2, f)
+{
+    const real X = x->q[0], Y = x->q[1], r = sqrt(X*X + Y*Y), w = -R(1e6)*(r - 1)/r;
+    x->f[0] += w*X;
+    x->f[1] += w*Y - 1;
+}
+
+TEST(a_length_that_failed_is_not_tried_again_at_once)
+{
+    static const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .points = on_a_rod } };
+    const gvi_desc desc = { .n = 2, .degree = 4, .effects = effects, .effect_count = 1, .resolution = R(1e-3) };
+    const real q[2] = { 1, 0 }, v[2] = { 0, 0 };
+    gvi_stepper st = new_motion(&desc, 0, q, v);
+    while (st.t < 4) assert_ok(gvi_advance(&st, 4));
+    assert_true(4*st.counters.failures <= st.counters.steps);
+}
+
+/* q'' = cos 3t - q at a late date, where rounding of t is in every force: it asks for no shorter steps.  From t = 0 on there is
+   none; the phase of the force differs, and with it the steps, by a few */
+GVI_EACH(dated, 1, f) { x->f[0] += cos(3*x->t[0]) - x->q[0]; }
+
+TEST(rounding_of_a_date_asks_for_no_shorter_steps)
+{
+    static const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .points = dated } };
+    const gvi_desc desc = { .n = 1, .degree = 12, .effects = effects, .effect_count = 1,
+                            .resolution = sizeof(real) == 4 ? R(1e-3) : R(1e-10) };
+    const real q[1] = { 1 }, v[1] = { 0 }, dates[2] = { 0, sizeof(real) == 4 ? R(1e3) : R(1e6) };
+    unsigned long long steps[2];
+    for (int k = 0; k < 2; ++k) {
+        gvi_stepper st = new_motion(&desc, dates[k], q, v);
+        while (st.t < dates[k] + 20) assert_ok(gvi_advance(&st, dates[k] + 20));
+        steps[k] = st.counters.steps;
+    }
+    assert_true(steps[1] <= 2*steps[0]);
+}
+
 TEST(it_lands_on_the_end_to_the_bit)
 {
     for (int k = 0; k < 400; ++k) {

@@ -143,7 +143,6 @@ MUTANTS = [
     ("resolution", "for (int m = 0; m < pulled; ++m)", "for (int m = 0; m < 0; ++m)"),
     ("constraints constraints_order", "in->con.y[a - n] /= h*in->con.w[s];", "in->con.y[a - n] /= h;"),
     ("newton", "p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);", "p.have = kept;"),
-    ("newton constraints_newton", "if ((J->square[k*(size + 1)] < 0) != (J->pivot[k] > (gvi_real)k)) sign = -sign;", "if (J->square[k*(size + 1)] < 0) sign = -sign;"),
     # boundary values by the dial, velocities that terms make, projection, multipliers
     ("boundary", "    status = gvi__place_accept(st);\n    in->state = state;", "    in->state = state;"),
     ("convergence", "!(gvi__parts(&st->in) && gvi__place_moves(st)),",
@@ -155,7 +154,7 @@ MUTANTS = [
     ("why", "if (unlike) wrong = a;", ""),
     # which row is left out; loss
     ("loops", "if (!(part > most)) continue;", "continue;"),
-    ("loops constraints", "GVI_ABS(rest) < was/16; ++j)", "0; ++j)"),
+    ("loops constraints", "GVI_ABS(rest)*(GVI__LOST*GVI__LOST) < was; ++j)", "0; ++j)"),
     # starts: nothing of the last motion, looks, rows that are off
     ("api", "    gvi__zero(n, in->state.q_low);\n", ""),
     ("api", "    st->formulation = in->chosen;\n    gvi__place_started(st);", "    gvi__place_started(st);"),

@@ -1,7 +1,8 @@
 #!/bin/sh
-# tolerances.sh BUILD [NAME ...]: each constant of gvi.h's section TOLERANCES, or those named, by half and by two:
-# iterations and Newton's iterations of the fixed runs of tests/cost/runs.c, in per cent of those with the constant as
-# it is, and the tests that fail.  A constant for which nothing changes has room, and no test.  Ten minutes of CPU time.
+# tolerances.sh BUILD [NAME | LINE:NUMBER ...]: each constant of gvi.h's section TOLERANCES and each number without a name that
+# constants.py lists, or those given, by half and by two: iterations and Newton's iterations of the fixed runs of
+# tests/cost/runs.c, in per cent of those with the constant as it is, and the tests that fail.  One for which nothing changes
+# has room, and no test here.  Half an hour of CPU time.
 build=$1 dir=$1/tolerances
 shift
 CC=${CC:-cc}
@@ -30,10 +31,15 @@ outcome() {
 runs=$(grep -vc '^\(#\|compiler\)' tests/data/instructions.txt)
 base=$(outcome '')
 echo "as it is: $base"
-[ $# -gt 0 ] || set -- $(sed -n '/- TOLERANCES$/,/- BLOCKS/s/^#define \(GVI__[A-Z_]*\) .*/\1/p' gvi.h)
+[ $# -gt 0 ] || set -- $(sed -n '/- TOLERANCES$/,/- BLOCKS/s/^#define \(GVI__[A-Z_]*\) .*/\1/p' gvi.h) \
+                       $(python3 tests/tools/constants.py --numbers)
 for name; do
-    for factor in '(\2)/2' '(\2)*2'; do
-        outcome "s|^#define \($name\)  *\([^ ]*\)|#define \1 ($factor)|" >"$dir/found"
-        printf '%-20s %s %s\n' "$name" "${factor#(\\2)}" "$(awk -v base="${base%% *}" '{ $1 = sprintf("%+.2f %%", 100*($1/base - 1)); print }' "$dir/found")"
+    for by in /2 '*2'; do
+        case $name in
+        *:*) change="${name%:*}s#\([^][A-Za-z0-9_.]\)${name#*:}\([^][A-Za-z0-9_.]\)#\1(${name#*:}$by)\2#" ;;
+        *)   change="/^#define $name /{ s# *//.*##; s#^\(.define $name\) *\(.*\)#\1 ((\2)$by)#; }" ;;
+        esac
+        outcome "$change" >"$dir/found"
+        printf '%-20s %s %s\n' "$name" "$by" "$(awk -v base="${base%% *}" '{ $1 = sprintf("%+.2f %%", 100*($1/base - 1)); print }' "$dir/found")"
     done
 done
