@@ -4,7 +4,7 @@
    it and with 32, of degree 4.  It is wrong where these agree to 2 % and it is off by more than 10: of the longest way of
    a bead, or of the largest velocity.  From there on the motion is that of the parts.  A second stepper, with a dial of
    .999, takes the same steps for the measure; what it refuses is above any dial.  A dial of .1 has to refuse what is off
-   by twice that, and at most 5 % of what is off by less than half of it.
+   by twice that, and at most 10 % of what is off by less than half of it.
 
      refused [seconds, 10] [degree, all]                                                                               */
 #include "rope.h"
@@ -90,7 +90,7 @@ static void study(int degree, double seconds, real *room)
                      needless = right.small[k] ? (double)right.needless[k]/(double)right.small[k] : 0;
         if (k == 0) printf("  %d %9ld %8ld %8ld %8ld", degree, right.steps, wrong.steps, unknown, failed);
         printf("%*s %4g %6ld %7.1f %% %9.1f %% %9.2g\n", k ? 38 : 0, "", limits[k], wrong.refused[k], 100*share, 100*needless, off);
-        if (k == 0) misses += off > 2*limits[k] || needless > .05;
+        if (k == 0) misses += off > 2*limits[k] || needless > .1;
     }
     if (!goes_on) printf("      stopped: %s\n", gvi_why(&step));
     misses += !goes_on;
