@@ -6463,8 +6463,7 @@ static void gvi__newton_forget(gvi_stepper *st)
      rho_a = g(D_a) + G_a (D'_a - D_a)   lambda_e -= (G_e M^-1 G_e')^-1 sum_a X_ea rho_a/(h^2 w_e)
 
    Sources e = 0..s-1 and D_1..D_s are rows of R, as forces and stage values; what is evaluated at
-   D_0..D_s, rows of C; at one point, numbers at the beginning of these.  Rows that are off are left
-   out.                                                                                        */
+   D_0..D_s, rows of C; at one point, numbers at their beginning.  Rows off are left out.      */
 
 // is a constraint on?
 GVI__BODY int gvi__constrained(const gvi_stepper *st)
@@ -7247,8 +7246,7 @@ GVI__COLD int gvi__doubtful(const gvi_stepper *st, const gvi_real *q, int a, gvi
    1/4096 of Newton's correction, forwards and back, and less: if g_a follows both, to a quarter of
    the change that G at both ends tells, its rounding is below that, and g_a is none.  Of a row that
    is left out, what those before it do not explain (A = L D L': L^-1 g) may be a contradiction,
-   which no move shows.  In a step (`start` 0) the others are as exact as its iteration made
-   them.                                                                                       */
+   which no move shows.  In a step (`start` 0) the others are as exact as its iteration.         */
 GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                     const gvi_real *p, gvi_real *v, int start)
 {
@@ -7312,12 +7310,11 @@ GVI__CALLED gvi_status gvi__check_rank(gvi_stepper *st, int margin)
     const int m = st->in.con.m;
     const gvi_real *A = st->in.con.gram1, root = GVI_SQRT(GVI__EPS);
     gvi_real most = 1/(root*GVI__FADES*GVI__FADES);              // of a start: less has no effect
-    if (margin > 0) most = gvi__larger(1/(root*(gvi_real)margin), GVI__FADES*st->in.con.near_start);
+    if (margin > 0) most = gvi__larger(1/root/(gvi_real)margin, GVI__FADES*st->in.con.near_start);
     for (int a = 0; a < m; ++a) {
-        gvi_real lost = 0;
-        for (int l = (int)st->in.con.first[a]; l < a; ++l) lost += A[a*m + l]*A[l*m + a];
-        if (margin == 1 && !(lost*A[a*m + a]*(gvi_real)m > most)) continue;
-        const gvi_real all = (lost + gvi__combine(st, 1, a, A))*A[a*m + a];
+        const gvi_real own = gvi__entry(st, 1, a, A);
+        if (margin == 1 && !(own*A[a*m + a]*(gvi_real)m > most)) continue;
+        const gvi_real all = (own + gvi__combine(st, 1, a, A))*A[a*m + a];
         if (!(all > most)) continue;
         if (margin > 0) return gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
         most = all;
@@ -7892,7 +7889,6 @@ GVI__OFFERED int gvi__place_explain(gvi_stepper *st, gvi_status status, gvi_real
                                     gvi_status *start)
 {
     if (!gvi__constrained(st)) return 0;
-
     gvi_real *drops = st->in.con.drops + st->in.con.m;
     *start = gvi__constraints_at(st, st->t, st->q, st->p, v, drops);
     if (*start == GVI_OK) {
@@ -8255,8 +8251,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
 
    and the step ends on A v + a = 0.  With r = s the row holds at every point.  The order is 2s; the
    map is reversible, not symplectic (docs/theory.md).  Unlike g(D), psi has rounding of the size of
-   h V alone, so V or P is judged as in free motion; and psi is never linearised, since it turns
-   with all of Q.                                                                              */
+   h V alone, so V or P is judged as in free motion; psi turns with Q and is never linearised. */
 
 // there is no g that its rows could be the derivatives of
 GVI__COLD void gvi__rolling_effect(struct gvi__private *in, int e)
@@ -8515,8 +8510,7 @@ GVI__CALLED gvi_status gvi__con_end(gvi_stepper *st)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, C = in->con.C;
-    const gvi_real *c = in->con.y;
-    gvi_real *now = in->answer, *next = now + n;
+    gvi_real *now = in->answer, *next = now + n, *c = in->con.y;
     const gvi_points at = gvi__points_at(st, st->r, in->R, in->t, in->work.Q, NULL, NULL);
     gvi_status status = GVI_OK;
 
