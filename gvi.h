@@ -6439,8 +6439,7 @@ static void gvi__newton_forget(gvi_stepper *st)
      rho_a = g(D_a) + G_a (D'_a - D_a)   lambda_e -= (G_e M^-1 G_e')^-1 sum_a X_ea rho_a/(h^2 w_e)
 
    Sources e = 0..s-1 and D_1..D_s are rows of R, as forces and stage values; what is evaluated at
-   D_0..D_s, rows of C; at one point, numbers at the beginning of these.  Rows that are off are left
-   out.                                                                                        */
+   D_0..D_s, rows of C; at one point, numbers at their beginning.  Rows off are left out.      */
 
 // is a constraint on?
 GVI__BODY int gvi__constrained(const gvi_stepper *st)
@@ -6549,9 +6548,8 @@ static int gvi__all_zero(const gvi_real *x)
 
 /* The columns of each row in which G has had an entry other than 0.  They are looked for at the
    ends of steps, and within the first step after a start; a step at whose end there are new ones
-   is done again.  An entry that is 0 at both ends of a later step counts as 0
-   inside.  first[a]: the first row that shares a coordinate with row a, where L begins; all rows
-   do through a full M.                                                                        */
+   is done again.  An entry that is 0 at both ends of a later step counts as 0 inside.  first[a]:
+   the first row that shares a coordinate with row a, where L begins; with a full M all rows do. */
 static int gvi__find_columns(gvi_stepper *st, int S, int count, const gvi_real *G)
 {
     struct gvi__private *in = &st->in;
@@ -7225,8 +7223,7 @@ GVI__COLD int gvi__doubtful(const gvi_stepper *st, const gvi_real *q, int a, gvi
    both, to a quarter of the change that G at both ends tells, its rounding is below that, and g_a
    is none.  Of a row that
    is left out, what those before it do not explain (A = L D L': L^-1 g) may be a contradiction,
-   which no move shows.  In a step (`start` 0) the others are as exact as its iteration made
-   them.                                                                                       */
+   which no move shows.  In a step (`start` 0) the others are as exact as its iteration.         */
 GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                     const gvi_real *p, gvi_real *v, int start)
 {
@@ -7280,23 +7277,21 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
                        : gvi__report_row(st, GVI_E_CONSTRAINT, refused, GVI_FAULT_NONE);
 }
 
-/* A combination of rows that leaves less than half of the digits of its terms, and more than
-   rounding, is about to vanish: the rank changes, a change point of a linkage.  Its multiplier is
-   noise over what is left, more of it the shorter a step is, so no h mends it.  Against all terms,
-   not those of one row, it is the same in every frame.  Rows that were that near where the motion
-   started may stay so.  From gram1; `margin`: where a step has failed, that much earlier, by a
-   third of the digits; 0: a start, to be remembered.                                          */
+/* Rows are about to depend where a combination leaves less than half of the digits of its terms,
+   and more than rounding: a change point of a linkage.  Its multiplier is noise over what is left,
+   more the shorter a step is, so no h mends it.  All its terms, not one row's: so it is as near in
+   every frame.  Rows that were that near where the motion started may stay so.  `margin`: where a
+   step has failed, earlier by a third of the digits; 0: a start, to be remembered.  From gram1. */
 GVI__CALLED gvi_status gvi__check_rank(gvi_stepper *st, int margin)
 {
     const int m = st->in.con.m;
     const gvi_real *A = st->in.con.gram1, root = GVI_SQRT(GVI__EPS);
-    gvi_real most = 1/(root*GVI__FADES*GVI__FADES);              // less is not asked for
-    if (margin > 0) most = gvi__larger(1/(root*(gvi_real)margin), GVI__FADES*st->in.con.near_start);
+    gvi_real most = 1/(root*GVI__FADES*GVI__FADES);              // of a start: less has no effect
+    if (margin > 0) most = gvi__larger(1/root/(gvi_real)margin, GVI__FADES*st->in.con.near_start);
     for (int a = 0; a < m; ++a) {
-        gvi_real lost = 0;
-        for (int l = (int)st->in.con.first[a]; l < a; ++l) lost += A[a*m + l]*A[l*m + a];
-        if (margin == 1 && !(lost*A[a*m + a]*(gvi_real)m > most)) continue;
-        const gvi_real all = (lost + gvi__combine(st, 1, a, A))*A[a*m + a];
+        const gvi_real own = gvi__entry(st, 1, a, A);
+        if (margin == 1 && !(own*A[a*m + a]*(gvi_real)m > most)) continue;
+        const gvi_real all = (own + gvi__combine(st, 1, a, A))*A[a*m + a];
         if (!(all > most)) continue;
         if (margin > 0) return gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
         most = all;
@@ -7537,9 +7532,8 @@ GVI__COLD int gvi__wrong_derivative(gvi_stepper *st, gvi_real from_t, int i, gvi
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, next = i < n ? n : 1;
     gvi_real *g = in->con.g, *G = in->con.G1, *at = in->con.scratch, *was = in->con.rho,
-             *rate = was + m,
-             *mean = rate + m, *ahead = in->con.y, *turn = g + 2*m, now = from_t, off = 0,
-             *moved = i < n ? at + i : &now;
+             *rate = was + m, *mean = rate + m, *ahead = in->con.y, *turn = g + 2*m,
+             now = from_t, off = 0, *moved = i < n ? at + i : &now;
     const gvi_real x = *moved, *from = at + n, *written = i < n ? G + i : rate,
                    *there = i < n ? G + m*n + i : g + m, least = GVI__SURE*GVI__EPS*GVI_ABS(x);
     int wrong = -1;
@@ -7591,8 +7585,7 @@ GVI__COLD gvi_status gvi__check_derivatives(gvi_stepper *st, gvi_real t, const g
     const int n = st->n, m = in->con.m;
     const gvi_counters counters = st->counters;          // no step's work
     gvi_real *g = in->con.g, *at = in->con.scratch, *from = at + n, *was = in->con.rho,
-             *rate = was + m,
-             largest = 0, from_t = t;
+             *rate = was + m, largest = 0, from_t = t;
     const gvi_real root = GVI_SQRT(GVI_SQRT(GVI__EPS));
     const char *slip = NULL;
     gvi_status status = GVI_OK;
@@ -7814,21 +7807,17 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
                  r = (size_t)in->desc.rule.points,
                  R = (size_t)GVI__ROW(r), C = (size_t)GVI__ROW(s + 1),
                  m = (size_t)gvi__count_rows(in, con->bits),
-                 on = m > 0, i = on && in->stages > 0,
-                 u = in->stages == 2;
+                 on = m > 0, i = on && in->stages > 0, u = in->stages == 2;
     const struct { gvi_real **to; size_t rows, width; } list[] = {
         { &con->D, i*n, R }, { &con->free, i*n, R }, { &con->P, on*u*n, R },
         { &con->plus, i*(1 + u)*n, R }, { &con->force, i*(n + m), R },
         { &con->K, i*r, R }, { &con->U, on*u*r, R }, { &con->by_force, i*r, R },
         { &con->by_impulse, i*r, R },
-        { &con->X, i*s, R },
-        { &con->E, i*s, R }, { &con->Phi, i*s, R }, { &con->Phi_low, i*s, R }, { &con->hw, on, R },
-        { &con->last, i*(n + m), C }, { &con->at, i*n, C }, { &con->t, i, C },
-        { &con->scratch, on*n, C },
-        { &con->g, 2*m, C }, { &con->G, i*m*n, C }, { &con->gram, i*m*m, C },
-        { &con->d, on, R + C },
-        { &con->w, on, s + 1 }, { &con->rho, m, R + C }, { &con->lu, i*(s + 1), s + 1 },
-        { &con->y, on, 7*m },
+        { &con->X, i*s, R }, { &con->E, i*s, R }, { &con->Phi, i*s, R }, { &con->Phi_low, i*s, R },
+        { &con->hw, on, R }, { &con->last, i*(n + m), C }, { &con->at, i*n, C }, { &con->t, i, C },
+        { &con->scratch, on*n, C }, { &con->g, 2*m, C }, { &con->G, i*m*n, C },
+        { &con->gram, i*m*m, C }, { &con->d, on, R + C }, { &con->w, on, s + 1 },
+        { &con->rho, m, R + C }, { &con->lu, i*(s + 1), s + 1 }, { &con->y, on, 7*m },
         { &con->G1, 2*m, n }, { &con->gram1, m, m }, { &con->column, m, n + 1 },
         { &con->first, on, m }, { &con->drops, 2*on, m }, { &con->noise, on, m }
     };
@@ -7877,7 +7866,6 @@ GVI__OFFERED int gvi__place_explain(gvi_stepper *st, gvi_status status, gvi_real
                                     gvi_status *start)
 {
     if (!gvi__constrained(st)) return 0;
-
     gvi_real *drops = st->in.con.drops + st->in.con.m;
     *start = gvi__constraints_at(st, st->t, st->q, st->p, v, drops);
     if (*start == GVI_OK) {
@@ -8240,8 +8228,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
 
    and the step ends on A v + a = 0.  With r = s the row holds at every point.  The order is 2s; the
    map is reversible, not symplectic (docs/theory.md).  Unlike g(D), psi has rounding of the size of
-   h V alone, so V or P is judged as in free motion; and psi is never linearised, since it turns
-   with all of Q.                                                                              */
+   h V alone, so V or P is judged as in free motion; psi turns with Q and is never linearised. */
 
 // there is no g that its rows could be the derivatives of
 GVI__COLD void gvi__rolling_effect(struct gvi__private *in, int e)
@@ -8500,8 +8487,7 @@ GVI__CALLED gvi_status gvi__con_end(gvi_stepper *st)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, C = in->con.C;
-    const gvi_real *c = in->con.y;
-    gvi_real *now = in->answer, *next = now + n;
+    gvi_real *now = in->answer, *next = now + n, *c = in->con.y;
     const gvi_points at = gvi__points_at(st, st->r, in->R, in->t, in->work.Q, NULL, NULL);
     gvi_status status = GVI_OK;
 

@@ -598,6 +598,58 @@ TEST(a_crank_at_angle_0_starts_from_rest)
     }
 }
 
+/* A spring pulls a point on a surface along a row that turns.  Rounding of the rows now and then fails a step, the sooner the
+   shorter it is, and each failure halves h: it must not run down to where none succeeds.  No row moves, so the energy stays */
+static real along(const real *a, const real *q) { return a[0]*q[0] + a[1]*q[1] + a[2]*q[2]; }
+
+GVI_EACH(pulled_back, 3, f, value)
+{
+    *x->value += along(x->q, x->q)/2;
+    for (int i = 0; i < 3; ++i) x->f[i] -= x->q[i];
+}
+
+static const real from_here[] = { R(-0.65), R(0.4), R(0.25) };
+
+GVI_EACH(surface, 3, rows(1))
+{
+    static const real flat[] = { 0, R(-0.15), R(-0.55) }, wave[] = { R(-1.5), R(0.45), R(0.75) };
+    const real at = along(wave, x->q);
+    x->g[0] = along(flat, x->q) - along(flat, from_here) - R(0.4)*(cos(at) - cos(along(wave, from_here)));
+    for (int i = 0; i < 3; ++i) x->jacobian[i] = flat[i] + R(0.4)*sin(at)*wave[i];
+}
+
+GVI_EACH(turning_row, 3, rows(1))
+{
+    static const real fixed[] = { R(-0.55), R(0.1), R(-0.25) }, turning[] = { R(0.4), R(-0.7), R(0.35) },
+                      wave[] = { R(0.3), R(0.2), R(1.65) };
+    const real s = sin(along(wave, x->q));
+    for (int i = 0; i < 3; ++i) x->jacobian[i] = fixed[i] + turning[i]*s;
+}
+
+TEST(steps_that_rounding_fails_do_not_run_down)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = pulled_back, .value = pulled_back },
+                                        { .kind = GVI_CONSTRAINT, .points = surface, .rows = 1 },
+                                        { .kind = GVI_NONHOLONOMIC, .points = turning_row, .rows = 1 } };
+    real A[3], B[3], g, rate, v[3];
+    const gvi_points a = { .n = 3, .count = 1, .stride = 1, .q = from_here, .g = &g, .jacobian = A, .rate = &rate },
+                     b = { .n = 3, .count = 1, .stride = 1, .q = from_here, .g = &g, .jacobian = B, .rate = &rate };
+    surface(&a, NULL);
+    turning_row(&b, NULL);
+    for (int i = 0; i < 3; ++i) v[i] = (A[(i + 1)%3]*B[(i + 2)%3] - A[(i + 2)%3]*B[(i + 1)%3])/10;
+    for (int k = 0; k < 8; ++k) {
+        const real limit = pow(R(10.0), KIND == 1 ? R(-2.0) - (real)k/4 : -6 - (real)k);
+        const gvi_desc desc = { .n = 3, .degree = 3, .effects = scene, .effect_count = 3, .resolution = limit };
+        gvi_stepper st = new_motion(&desc, 0, from_here, v);
+        real first, last;
+        assert_ok(gvi_energy(&st, &first));
+        for (int steps = 0; st.t < 2 && steps < 10000; ++steps) assert_ok(gvi_advance(&st, 2));
+        assert_true(st.t >= 2);
+        assert_ok(gvi_energy(&st, &last));
+        assert_close(last, first, (real)st.counters.steps*(limit/16 + 4*EPS));
+    }
+}
+
 /* A knot of 10 g in the middle between two springs, with its weight: sideways it moves by rounding alone */
 GVI_EACH(threads, 2, f)
 {

@@ -344,7 +344,7 @@ static void own_place(const double *q, unsigned on, double (*x)[3])
 static const double own_radius[OWN_POINTS] = { 0 };
 
 static scene own_scene = {
-    .name = "own", .title = "Your own L or H",
+    .name = "own", .title = "Your L or H",
     .about = "Change L, H or the start: the motion and what it costs follow.",
     .degree = 8, .h = 0.1, .span = 10, .speed = 1, .time_unit = "", .error_unit = "", .text = "",
     .build = own_build, .view = 1, .place = own_place, .radius = own_radius,

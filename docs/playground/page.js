@@ -172,7 +172,7 @@ function own(typed) {
   const still = i => [0, 1].every(k => { const s = r.steps[r.draw[2 * i + k] - 2 * r.n - 1]; return s && !s[0]; });
   const rods = r.rods.filter(a => a[2] > 1), ends = r.rods.map(a => a[0] + a[2] - 1), points = [...Array(r.draw.length / 2).keys()];
   const bits = list => list.reduce((sum, i) => sum | 1 << i, 0);
-  Object.assign(mine, { n: r.n, span: r.end, speed: r.end / 10, bodies: points.length, rods, timed: r.timed, momenta: r.momenta, kind: r.kind, text: r.c, radius: points.map(i => still(i) ? rods.length ? 4 : 10 : 7),
+  Object.assign(mine, { n: r.n, span: r.end, speed: r.end / 10, bodies: points.length, rods, timed: r.timed, momenta: r.momenta, kind: r.kind, mass: text(x.scene_text(mine.i, 7, 0)), text: r.c, radius: points.map(i => still(i) ? rods.length ? 4 : 10 : 7),
     fixed: bits(points.filter(still)), trails: bits(ends.filter(i => !still(i))), mark: Math.random() });
   mine.effects = effectsOf(mine.i).map(e => ({ ...e, code: e.code.replace('ROWS', e.kind === 5 ? r.rolls.length : r.holds.length) }));
   mine.first = 2 ** mine.effects.length - 1;
@@ -269,7 +269,8 @@ function complain(call, status, more = '', world = 0, why = '') {
   a.hidden = !status;
   if (!status) return;
   const e = status === -9 || status === -10 || status === -11 || status < -13 ? x.world_number(world, 11, 0) : -1;
-  $('alert-text').textContent = `${call}: ${why || boxed(text(x.status_text(world, status)))}${e >= 0 ? ` (${scene().effects[e].name})` : ''}. ${more}`;
+  const said = why || boxed(text(x.status_text(world, status)));
+  $('alert-text').textContent = `${call}: ${said}${e >= 0 && !/^[LH] is /.test(said) ? ` (${scene().effects[e].name})` : ''}. ${more}`;
   $('alert').dataset.status = status;
   $('halve').hidden = why || set.dial || !/^-(8|9|10|14)$/.test(status);
   $('alert-clock').hidden = why || scene().clock < 0 || clocked();

@@ -365,7 +365,7 @@ check('own, a force: its row, and the energy falls', await soon(page, () => docu
 check('own, a force: its C, and nothing covers it', /GVI_POINTS\(force, 1, v, f\)[^]*at->f\[0\] \+= \(-0.5\)\*vtheta/.test(await page.textContent('#code')) && await page.evaluate(() => document.querySelector('#copy').getBoundingClientRect().bottom <= document.querySelector('#code').getBoundingClientRect().top), await page.textContent('#code'));
 for (const [hash, works] of [[link, true], ['#scene=own&L=nonsense', false], ['#scene=own', true]]) {
   const other = await visit(hash), seen = await other.evaluate(() => [document.querySelector('#scene-title').textContent, document.querySelector('#typed').value, document.querySelector('#alert').hidden]);
-  check(`own, a shared address: ${works ? 'as it was' : 'words'}`, (seen[0] === 'Your own L or H') === works && seen[2] === works && (hash !== link || /2\*x\^2/.test(seen[1])), seen);
+  check(`own, a shared address: ${works ? 'as it was' : 'words'}`, (seen[0] === 'Your L or H') === works && seen[2] === works && (hash !== link || /2\*x\^2/.test(seen[1])), seen);
   await leave(other);
 }
 await page.click('#scenes button[data-scene=kepler]');
