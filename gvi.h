@@ -8993,7 +8993,7 @@ static gvi_real gvi__length(gvi_real k)
 
 /* How many rungs up, after a step that succeeded.  `room`: up to where the resolution, of order
    2s - 1 in h, or 2 at degree 1, reaches its limit, less a margin.  What was lost of it since the
-   step before will be lost again; two octaves are no measure.  From 0 to GVI__BAND rungs h stays.
+   step before will be lost again; three octaves are no measure.  From 0 to GVI__BAND rungs h stays.
    Work over time is iterations/h: from GVI__MANY of them on h does not grow, from 5/3 of that on
    it shrinks.                                                                                 */
 static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
@@ -9001,18 +9001,16 @@ static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
     struct gvi__dial *dial = &st->in.dial;
     // by velocities the iteration contracts with h, not h^2
     const int many = st->in.stages == 2 ? GVI__MANY*3/2 : GVI__MANY,
-              newton = st->formulation == GVI_NEWTON;
+              iterations = st->formulation == GVI_NEWTON ? 0 : st->iterations;
     gvi_real left = room, up = 0;
 
-    if (room < 2*GVI__GROWS) {
-        left -= gvi__larger(dial->reach - (at + room), 0);
-        dial->reach = at + room;
-    }
+    if (dial->reach - at < 3*GVI__GROWS) left -= gvi__larger(dial->reach - (at + room), 0);
+    dial->reach = at + room;
 
     if (left > GVI__BAND) up = gvi__smaller(left - GVI__BAND, GVI__GROWS);
     if (left < 0) up = gvi__larger(left - 1, -2*GVI__GROWS);
-    if (!newton && st->iterations >= many) up = gvi__smaller(up, 0);
-    if (!newton && st->iterations >= many*5/3) up = gvi__smaller(up, -1);
+    if (iterations >= many) up = gvi__smaller(up, 0);
+    if (iterations >= many*5/3) up = gvi__smaller(up, -1);
 
     dial->wait -= dial->wait > 0;
     if (dial->wait > 0 && up > 0)
@@ -9021,8 +9019,8 @@ static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 }
 
 /* The same after a failure.  The length is barred for a while, longer each time.  Where the fixed
-   point failed, shorter steps come first; Newton's method is for where they fail, too.
-   (test_resolution has both.)                                                                 */
+   point failed, shorter steps come first; Newton's method is for where they fail, too, or are far
+   shorter than the resolution allows, and then it stays.  (test_resolution has both.)         */
 static gvi_real gvi__rungs_down(gvi_stepper *st, gvi_status status, gvi_real at, gvi_real room)
 {
     struct gvi__dial *dial = &st->in.dial;
@@ -9095,7 +9093,8 @@ GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
         gvi_real h = st->next;
         if (!clock && left < h*2) h = left/2;
         if (!clock && left < st->next*(gvi_real)1.0625) h = left;
-        st->in.dial.put_off = st->in.dial.reach - gvi__rungs(h) < GVI__SHORTER;
+        st->in.dial.put_off = st->formulation != GVI_NEWTON
+                              && st->in.dial.reach - gvi__rungs(h) < GVI__SHORTER;
         const gvi_status status = gvi_step(st, way > 0 ? h : -h);
         gvi__set_next(st, status, h);
         st->in.dial.put_off = 0;
