@@ -1699,8 +1699,8 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 
    The constants of judgement that decide most; those of one place stand there, with their reason.
    `make tolerances` halves and doubles all of them, and counts the iterations of fixed runs and
-   the tests that then fail.  But for GVI__LEAST, which has to be below 1, none changes the iterations by
-   1 %; what each does is in docs/design.md.                                                   */
+   the tests that then fail.  But for GVI__LEAST, which has to be below 1, none changes the
+   iterations by 1 %; what each does is in docs/design.md.                                     */
 
 // rounding, in eps
 #define GVI__PLACE ((gvi_real)4)           // of a value: its last places
