@@ -6160,6 +6160,17 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
     return gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
+/* The sign of the determinant of a matrix.  Where the iteration contracts, that of the solution
+   has the same sign; along a branch of solutions it changes where they turn back in h.  (make
+   hard-roots)                                                                                 */
+static int gvi__orientation(const gvi__matrix *J, size_t size)
+{
+    int sign = 1;
+    for (size_t k = 0; k < size; ++k)
+        if ((J->square[k*(size + 1)] < 0) != (J->pivot[k] > (gvi_real)k)) sign = -sign;
+    return sign;
+}
+
 // y := modes of the first `part` of its curve, and `slope` times what that leaves out
 static void gvi__newton_shorten(gvi_stepper *st, gvi_real part, const gvi_real *slope)
 {
@@ -6211,13 +6222,15 @@ static gvi_real gvi__newton_distance(const gvi_stepper *st, const gvi_real *othe
    where the iteration contracts well from constant velocity, h/32 in any case.  If it then comes
    to the same solution, or to none, y is accepted.  Under constraints rounding of g is in every
    solution, and all of it where a step moves by roundings of q: what it makes counts as not far. */
-static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from)
+static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from,
+                                        const gvi__matrix *J)
 {
     struct gvi__newton *newton = &st->in.newton;
     const size_t all = gvi__unknowns(st, 0), modes = (size_t)(st->s*st->n);
     const gvi_real h = st->in.sized.h, close = GVI__CLOSE;
     const unsigned count = (unsigned)st->counters.newton_iterations,
                    enough = 32*(unsigned)st->in.desc.max_iterations;
+    const int sign = gvi__orientation(J, all);
     const gvi__matrix K = gvi__newton_matrix(st, 1, 0);
     gvi_real part = 1, factor = (gvi_real)0.5;
     int right = -1;                                                  // not known
@@ -6230,7 +6243,8 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
         gvi__newton_shorten(st, factor, newton->slope);
         gvi__copy(all, newton->y, newton->guess);
         gvi__newton_points(st, from, h*(part*factor));
-        const int found = gvi__newton_solve(st, from, &K) == GVI_OK;
+        const int found =
+            gvi__newton_solve(st, from, &K) == GVI_OK && gvi__orientation(&K, all) == sign;
         const gvi_real distance = found ? gvi__newton_distance(st, newton->guess) : 1,
                        within = gvi__larger(close, newton->noise);
         if (!found || !(distance <= within)) {
@@ -6261,11 +6275,12 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
 enum { GVI__PLAIN, GVI__EXTRAPOLATED, GVI__HALVED };
 
 /* Newton's method for a step.  A solution is taken for the motion's where the iteration contracts
-   well from its start; or else it is followed back.                                           */
+   well from its start and the orientation is that of free motion; or else it is followed back. */
 static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query)
 {
     struct gvi__private *in = &st->in;
-    const gvi__matrix J = gvi__newton_matrix(st, query, how == GVI__HALVED);
+    const size_t all = gvi__unknowns(st, 0);
+    gvi__matrix J = gvi__newton_matrix(st, query, how == GVI__HALVED);
 
     // few points see little of what is between
     const gvi_real far = st->s > 2 ? GVI__CONTRACTS : GVI__CLOSE;
@@ -6283,8 +6298,11 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
         old = 0;
     }
 
-    if (status == GVI_OK && (J.halves || in->newton.bend > far))
-        status = gvi__newton_connected(st, from);
+    if (status == GVI_OK
+        && (J.halves || in->newton.bend > far || gvi__orientation(&J, all) < 0)) {
+        J.halves = 0;
+        status = gvi__newton_connected(st, from, &J);
+    }
 
     if (status == GVI_OK && gvi__con_unknowns(st) > 0) status = gvi__con_end(st);
     if (status != GVI_OK) return status;
@@ -8314,7 +8332,7 @@ GVI__COLD void gvi__rolling_layout(struct gvi__private *in, gvi__arena *a)
 /* --------------------------------------- CONSTRAINTS BY NEWTON'S METHOD
 
    Unknown y[s*n + e*m + a] is -lambda_a at D_e, e = 0..s-1, and the rows behind those of (1) are
-   -g_a at D_(e+1).                                                                            */
+   -g_a at D_(e+1).  So signed, the determinant of free motion is positive.                    */
 
 static size_t gvi__con_unknowns(const gvi_stepper *st)
 {

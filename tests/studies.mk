@@ -353,10 +353,11 @@ $(HARD:%=hard-%) hard-random-float: hard-%: $(BUILD)/hard/%
 
 # Short forms of those above, in make check: what no check runs breaks
 SHORT_random  = 5
+SHORT_roots   = 6
 SHORT_rest    = 60
 SHORT_rolling = 16384
-.PHONY: hard-random-short hard-rest-short hard-rolling-short
-hard-random-short hard-rest-short hard-rolling-short: hard-%-short: $(BUILD)/hard/%
+.PHONY: hard-random-short hard-roots-short hard-rest-short hard-rolling-short
+hard-random-short hard-roots-short hard-rest-short hard-rolling-short: hard-%-short: $(BUILD)/hard/%
 	$(STEP) $@ $< $(SHORT_$*)
 
 #: theorems     docs/theory.md measured again, with its pictures (six minutes); one: make theorem-curve, ten seconds, in make check

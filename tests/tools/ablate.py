@@ -44,7 +44,9 @@ CONDITIONS = [   # what it is, the tests near it, what stands in gvi.h and what 
     ('changes that make the residual larger are halved', 'constraints_newton newton loops constraints jumps boundary',
      [('if (J->halves && p->halves >= 0 &&', 'if (0 && J->halves && p->halves >= 0 &&')]),
     ('a branch is followed back', 'constraints_newton newton loops constraints jumps boundary',
-     [('status = gvi__newton_connected(st, from);', '(void)gvi__newton_connected;')]),
+     [('J.halves = 0;\n        status = gvi__newton_connected(st, from, &J);', 'J.halves = 0; (void)gvi__newton_connected;')]),
+    ('the sign of the determinant', 'constraints_newton newton loops constraints jumps boundary',
+     [('|| gvi__orientation(&J, all) < 0)) {', '|| 0)) {'), ('&& gvi__orientation(&K, all) == sign;', '&& sign != 5;')]),
     ('the old matrix is tried again', 'constraints_newton newton loops constraints jumps boundary',
      [('if (!old || status != GVI_OK || !(in->newton.bend > far)) break;', 'break;')]),
     ('a difference from rest', 'constraints_newton newton loops constraints jumps boundary',
@@ -70,7 +72,7 @@ CONDITIONS = [   # what it is, the tests near it, what stands in gvi.h and what 
 ]
 
 
-HARD = "eccentric flyby corners pythagorean random:5 rest:60 rolling:16384".split()       # the short forms of make check
+HARD = "eccentric flyby corners pythagorean random:5 roots:6 rest:60 rolling:16384".split()       # the short forms of make check
 
 
 class Broken(Exception):

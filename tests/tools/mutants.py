@@ -143,6 +143,7 @@ MUTANTS = [
     ("resolution", "for (int m = 0; m < pulled; ++m)", "for (int m = 0; m < 0; ++m)"),
     ("constraints constraints_order", "in->con.y[a - n] /= h*in->con.w[s];", "in->con.y[a - n] /= h;"),
     ("newton", "p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);", "p.have = kept;"),
+    ("newton constraints_newton", "if ((J->square[k*(size + 1)] < 0) != (J->pivot[k] > (gvi_real)k)) sign = -sign;", "if (J->square[k*(size + 1)] < 0) sign = -sign;"),
     # boundary values by the dial, velocities that terms make, projection, multipliers
     ("boundary", "    status = gvi__place_accept(st);\n    in->state = state;", "    in->state = state;"),
     ("convergence", "!(gvi__parts(&st->in) && gvi__place_moves(st)),",
