@@ -6068,22 +6068,25 @@ static int gvi__newton_at_floor(gvi__descent *p, gvi_real change, gvi_real noise
 
 /* The verdict on a change.  To shrink is to be at most half of the least so far: what is rounded to
    a grid may circle among a few of its points, and fall in every iteration.  Nor is a fall from an
-   overshoot far beyond the size of y a contraction.                                           */
+   overshoot far beyond the size of y a contraction.  One ratio by an old matrix may be luck: unless
+   the change is rounding, the one before must agree (make everyday, in long double).          */
 static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p,
                                  gvi_real change)
 {
     const gvi_real all = (gvi_real)st->n, quarter = GVI__CONTRACTS,
                    noise = GVI__GRAIN*p->grain*(gvi_real)((st->s - J->k0)*st->n),
                    enough = gvi__larger(st->in.desc.tolerance, GVI__NEWTON_ENOUGH);
-    gvi_real ratio = 1;
+    gvi_real ratio = 1, other = 1;
 
     if (!gvi__finite(change)) return GVI__NOT_FINITE;
     st->in.newton.noise = noise;
     if (p->before > 0) ratio = change/gvi__smaller(p->before, all);
+    if (p->earlier > 0) other = p->before/gvi__smaller(p->earlier, all);
     gvi__newton_note(st, p, change, noise);
     const int at_floor = gvi__newton_at_floor(p, change, noise), contracts = p->rho < quarter;
 
-    const int done = p->each*ratio <= enough || p->left <= enough;
+    const int confirmed = (p->fresh & 1 && p->holds) || change <= noise || change*other <= enough;
+    const int done = (p->each*ratio <= enough && confirmed) || p->left <= enough;
     if (done && (p->holds || contracts)) return GVI__DONE;
 
     // rounding by a matrix that has contracted here asks for no other
@@ -7209,7 +7212,7 @@ GVI__COLD int gvi__doubtful(const gvi_stepper *st, const gvi_real *q, int a, gvi
 }
 
 /* Is each g_a within 4096 roundings, as far as these are known, or as measured?  To measure, take
-   1/4096 of Newton's correction, forwards and back, and less, to 2^-48 of that: if g_a follows
+   1/4096 of Newton's correction, forwards and back, and less, down to eps of that: if g_a follows
    both, to a quarter of the change that G at both ends tells, its rounding is below that, and g_a
    is none.  Of a row that
    is left out, what those before it do not explain (A = L D L': L^-1 g) may be a contradiction,
@@ -7248,7 +7251,7 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
     if (!gvi__finite(gvi__norm1(n, d))) refused = off;
     gvi__zero((size_t)m, ahead);
     gvi_real part = 1/GVI__HELD;
-    for (int k = 0; k < 34 && refused < 0; ++k) {
+    for (int k = 0; part > GVI__EPS/GVI__HELD && refused < 0; ++k) {
         const gvi_real step = k % 2 ? -part : part;
         gvi__add_scaled(n, step, d, q, next);
         if (k % 2) part /= 8;
