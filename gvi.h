@@ -7240,7 +7240,7 @@ GVI__COLD int gvi__doubtful(const gvi_stepper *st, const gvi_real *q, int a, gvi
 }
 
 /* Is each g_a within 4096 roundings, as far as these are known, or as measured?  To measure, take
-   1/4096 of Newton's correction, forwards and back, and less, to 2^-48 of that: if g_a follows
+   1/4096 of Newton's correction, forwards and back, and less, down to eps of that: if g_a follows
    both, to a quarter of the change that G at both ends tells, its rounding is below that, and g_a
    is none.  Of a row that
    is left out, what those before it do not explain (A = L D L': L^-1 g) may be a contradiction,
@@ -7278,7 +7278,7 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
     if (!gvi__finite(gvi__norm1(n, d))) refused = off;
     gvi__zero((size_t)m, ahead);
     gvi_real part = 1/GVI__HELD;
-    for (int k = 0; k < 34 && refused < 0; ++k) {
+    for (int k = 0; part > GVI__EPS/GVI__HELD && refused < 0; ++k) {
         const gvi_real step = k % 2 ? -part : part;
         gvi__add_scaled(n, step, d, q, next);
         if (k % 2) part /= 8;
