@@ -42,7 +42,7 @@ VALGRIND     = test_api test_lu test_interpolation 07_driven_damped 36_building_
 
 # `make test` is for a person, two minutes; `make check` is the rest, twenty.
 TEST_STEPS  = $(TESTS) everyday-drawn textbook $(EXAMPLES) docs-check symbols headers-quick
-HARD_SHORT  = hard-eccentric hard-flyby hard-corners hard-pythagorean hard-random-short hard-roots-short hard-rest-short hard-rolling-short
+HARD_SHORT  = hard-eccentric hard-flyby hard-corners hard-pythagorean hard-measure hard-random-short hard-roots-short hard-rest-short hard-rolling-short
 CHECK_STEPS = headers everyday textbook-all $(VARIANTS) $(EXAMPLES:%=alone-%) any_processor chapters bound float instructions prices ensemble usable languages boards \
               $(VALGRIND:%=valgrind-%) sanitize hard-long-float hard-corners-float $(HARD_SHORT) theorem-curve firmware fuzz-short fuzz-rolling-short fuzz-contact-short
 

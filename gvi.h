@@ -4553,7 +4553,7 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
             } else if (at_rest && target > 0 && moved > 16*target) {
                 next = d*(target/moved);
             } else if (moved < target/2 && GVI_ABS(d)/GVI_SQRT(root) < edge) {
-                next = d*gvi__smaller(target/moved, 1/GVI_SQRT(root));
+                next = d/GVI_SQRT(root);
             } else break;
             if (!gvi__nonzero(next)) break;
         }
@@ -8012,7 +8012,7 @@ GVI__COLD gvi_status gvi__hold_rate(gvi_stepper *st, const gvi_real *v, const gv
 }
 
 /* A time in which much changes, |p||q|/p'v or 1, is the first delta, a power of 2, times 8 or more.
-   d2L/dv2 by differences is not A to rounding, so what it leaves is found once more.          */
+   d2L/dv2 by differences is not A to rounding, so what it leaves is found twice more.         */
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
 {
     gvi_status status = gvi__ready(st, st && st->in.started);
@@ -8045,7 +8045,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     int exponent;
     (void)GVI_FREXP(time, &exponent);
     const gvi_real delta = GVI_LDEXP(1, exponent - 4);
-    for (int pass = 0; m > 0 && pass < 1 + (in->adds_p > 0) && status == GVI_OK; ++pass)
+    for (int pass = 0; m > 0 && pass < 1 + 2*(in->adds_p > 0) && status == GVI_OK; ++pass)
         status = gvi__hold_rate(st, v, F, terms, time + GVI_ABS(st->t), delta);
     if (status != GVI_OK) return gvi__done(st, status);
     for (int e = 0; e < in->desc.effect_count; ++e)
@@ -8835,7 +8835,9 @@ static gvi_real gvi__mode_fall(int top, const gvi_real *y)
 static gvi_real gvi__missed(const gvi_stepper *st, int i, const gvi_real *y, gvi_real ends,
                             gvi_real turn, gvi_real *all)
 {
-    const int top = st->in.dial.top, e = 2*st->s - top;
+    const int top = st->in.dial.top, e = 2*st->s - top,
+              stiff = st->formulation == GVI_NEWTON && st->in.chosen != GVI_NEWTON
+                      && !gvi__constrained(st);
     gvi_real high = y[0] + y[1], low = y[2] + y[3], since = 0, was = 0;
 
     *all = ends + high + low;
@@ -8846,6 +8848,7 @@ static gvi_real gvi__missed(const gvi_stepper *st, int i, const gvi_real *y, gvi
     }
     // next to nothing: a force as simple as the curve, and no shorter step shows more of it
     if (!(high > 0) || gvi__modes_end(st, i, high, low, *all)) return high*GVI__EPS*GVI__EPS;
+    if (stiff) return high;                                      // (make hard-measure)
 
     gvi_real fall = low > high ? high/low : 1;                   // rho^2
     if (top == 2) fall *= GVI_SQRT(fall);                        // from y_1, or nearly
@@ -8871,14 +8874,15 @@ static gvi_real gvi__missed(const gvi_stepper *st, int i, const gvi_real *y, gvi
    rho is the fall from mode to mode, last from pair to pair and within the highest: forces that
    bend inside a step leave a tail that is flat there.  The step lacks about y_2s, which its points
    take for modes that they see: high rho^e; ten times that, since a short tail may be flatter than
-   it looks.  Below K = 6 two pairs count; below 5 low is a constant force as well, which falls
-   nowhere, and below 4 single modes count.  There y_(K-1) of the step before, y', says more:
-   |y_(K-1) - y'|/(4 K - 2) is a mode K, too, and rho at least half of both over |y_(K-1)| + |y'|.
-   In positions the modes are those of M v, from the forces.  Where motion is far below max |v| +
-   max |q|/h, each times sqrt(M_ii), and below max |v| + |q_i|/h, so that neither a light body nor
-   one near the origin counts as at rest, some eps of the smaller of these are rounding of forces
-   that cancel.  Under constraints rounding of g over h is in every velocity, and is all there is
-   of one that starts from rest: no error of h.                                                */
+   it looks.  Stiff forces, for which Newton's method had to take over, turn all of y_s into an
+   error: high.  (With constraints it takes over for other reasons.)  Below K = 6 two pairs count;
+   below 5 low is a constant force as well, which falls nowhere, and below 4 single modes count.
+   There y_(K-1) of the step before, y', says more: |y_(K-1) - y'|/(4 K - 2) is a mode K, too, and
+   rho at least half of both over |y_(K-1)| + |y'|.  In positions the modes are those of M v, from
+   the forces.  Where motion is far below max |v| + max |q|/h, each times sqrt(M_ii), and below max
+   |v| + |q_i|/h, so that neither a light body nor one near the origin counts as at rest, some eps
+   of the smaller of these are rounding of forces that cancel.  Under constraints rounding of g over
+   h is in every velocity, and is all there is of one that starts from rest: no error of h.     */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;

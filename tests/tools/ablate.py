@@ -55,6 +55,8 @@ CONDITIONS = [   # what it is, the tests near it, what stands in gvi.h and what 
      [('gvi_status status = gvi__check_regular(st);\n    if (status == GVI_OK) status = gvi__jacobian_exact', 'gvi_status status = GVI_OK; (void)gvi__check_regular;\n    if (status == GVI_OK) status = gvi__jacobian_exact')]),
     ('one ratio by an old matrix may be luck', 'constraints_newton newton loops constraints jumps boundary',
      [('|| change*other <= enough;', '|| 1; (void)other;')]),
+    ('stiff: the highest modes as they are', 'resolution loops constraints',
+     [('if (stiff) return high;', '')]),
     ('modes that are rounding of t and q', 'resolution loops constraints',
      [('high <= place*change*reach);', 'high < 0*change*reach);')]),
     ('a length that failed is barred', 'resolution loops constraints',
@@ -74,7 +76,7 @@ CONDITIONS = [   # what it is, the tests near it, what stands in gvi.h and what 
 ]
 
 
-HARD = "eccentric flyby corners pythagorean random:5 roots:6 rest:60 rolling:16384".split()       # the short forms of make check
+HARD = "eccentric flyby corners pythagorean random:5 roots:6 measure rest:60 rolling:16384".split()       # the short forms of make check
 
 
 class Broken(Exception):
