@@ -9018,7 +9018,7 @@ static gvi_real gvi__length(gvi_real k)
 
 /* How many rungs up, after a step that succeeded.  `room`: up to where the resolution, of order
    2s - 1 in h, or 2 at degree 1, reaches its limit, less a margin.  What was lost of it since the
-   step before will be lost again; three octaves are no measure.  From 0 to GVI__BAND rungs h stays.
+   step before will be lost again; two octaves are no measure.  From 0 to GVI__BAND rungs h stays.
    Work over time is iterations/h: from GVI__MANY of them on h does not grow, from 5/3 of that on
    it shrinks.                                                                                 */
 static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
@@ -9029,7 +9029,8 @@ static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
               iterations = st->formulation == GVI_NEWTON ? 0 : st->iterations;
     gvi_real left = room, up = 0;
 
-    if (dial->reach - at < 3*GVI__GROWS) left -= gvi__larger(dial->reach - (at + room), 0);
+    if (room < 2*GVI__GROWS && dial->reach - at < 2*GVI__GROWS)
+        left -= gvi__larger(dial->reach - (at + room), 0);
     dial->reach = at + room;
 
     if (left > GVI__BAND) up = gvi__smaller(left - GVI__BAND, GVI__GROWS);

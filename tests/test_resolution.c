@@ -1193,7 +1193,8 @@ TEST(steps_of_degree_1_and_2_follow_the_dial)
                                     .effects = free_ ? orbit : rod, .effect_count = free_ ? 1 : 2, .resolution = limit };
             gvi_stepper st = new_motion(&desc, 0, (const real[]){ R(0.6), R(-0.8) }, (const real[]){ R(0.8), R(0.6) });
             for (steps = 0; st.t < 40; ++steps) assert_ok(gvi_advance(&st, 40));
-            if (dial > 0) assert_between(0.85L, log2(steps/before)*(real)(degree + 1)/4, 1.15L);
+            // in float rounding of q over h is in the measure, too
+            if (dial > 0) assert_between(KIND == 1 ? 0.8L : 0.85L, log2(steps/before)*(real)(degree + 1)/4, 1.15L);
             before = steps;
             all += steps;
             failures += st.counters.failures;
