@@ -631,9 +631,10 @@ TEST(steps_that_rounding_fails_do_not_run_down)
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = pulled_back, .value = pulled_back },
                                         { .kind = GVI_CONSTRAINT, .points = surface, .rows = 1 },
                                         { .kind = GVI_NONHOLONOMIC, .points = turning_row, .rows = 1 } };
+    static const real zero = 0;
     real A[3], B[3], g, rate, v[3];
-    const gvi_points a = { .n = 3, .count = 1, .stride = 1, .q = from_here, .g = &g, .jacobian = A, .rate = &rate },
-                     b = { .n = 3, .count = 1, .stride = 1, .q = from_here, .g = &g, .jacobian = B, .rate = &rate };
+    const gvi_points a = { .n = 3, .count = 1, .stride = 1, .t = &zero, .q = from_here, .g = &g, .jacobian = A, .rate = &rate },
+                     b = { .n = 3, .count = 1, .stride = 1, .t = &zero, .q = from_here, .g = &g, .jacobian = B, .rate = &rate };
     surface(&a, NULL);
     turning_row(&b, NULL);
     for (int i = 0; i < 3; ++i) v[i] = (A[(i + 1)%3]*B[(i + 2)%3] - A[(i + 2)%3]*B[(i + 1)%3])/10;
