@@ -1732,7 +1732,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 
 // Newton's method: contraction
 #define GVI__CONTRACTS ((gvi_real)0.25)    // keeps its matrix; a curve is near
-#define GVI__CLOSE ((gvi_real)0.03125)     // to a prediction, to a line, of h to 0: near
+#define GVI__CLOSE ((gvi_real)0.03125)     // near a prediction, a line; so much of h is free motion
 #define GVI__FADES (1 << GVI__DIG/6)       // a third of the digits: where a step failed, a row ends
 #define GVI__LOST 4                        // of a pivot's entry what is left: rank may be changing
 #define GVI__WRONG 512                     // of an entry of G, what it is off times this: wrong
@@ -5706,9 +5706,11 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, const gv
             if (size > 0 && GVI_ABS(sum)/size > p->work) p->work = GVI_ABS(sum)/size;
         }
         in->watch.change[i] = momenta;
-        if (first && none) in->watch.scale[i] = J->scale ? J->scale[i] : 0;
-        if (first && !(none && in->watch.scale[i] > 0))
-            in->watch.scale[i] = 1/GVI_SQRT(gvi__place_inertia(st, i));
+        if (first) {
+            gvi_real *unit = in->watch.scale + i;
+            *unit = none && J->scale ? J->scale[i] : 0;
+            if (!(*unit > 0)) *unit = 1/GVI_SQRT(gvi__place_inertia(st, i));
+        }
         norm += length*in->watch.scale[i];
         moved += change*in->watch.scale[i];
         before += was*in->watch.scale[i];
@@ -7175,7 +7177,7 @@ static void gvi__drift_move(gvi_stepper *st, const gvi__origin *from, gvi_real h
 
 /* RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, from a simplified Newton iteration.  A
    row is rounding by what q1 was added up from, q0 and the paths, which cancel where q1 is near 0.
-   An error four times the least so far is divergence, as far as the two are no rounding.      */
+   An error four times the least so far, and well above rounding, is divergence.               */
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *in = &st->in;
@@ -7242,9 +7244,9 @@ GVI__COLD int gvi__doubtful(const gvi_stepper *st, const gvi_real *q, int a, gvi
 /* Is each g_a within 4096 roundings, as far as these are known, or as measured?  To measure, take
    1/4096 of Newton's correction, forwards and back, and less, down to eps of that: if g_a follows
    both, to a quarter of the change that G at both ends tells, its rounding is below that, and g_a
-   is none.  Of a row that
-   is left out, what those before it do not explain (A = L D L': L^-1 g) may be a contradiction,
-   which no move shows.  In a step (`start` 0) the others are as exact as its iteration.         */
+   is none.  Of a row that is left out, what those before it do not explain (A = L D L': L^-1 g) may
+   be a contradiction, which no move shows.  In a step (`start` 0) the others are as exact as its
+   iteration.                                                                                  */
 GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                     const gvi_real *p, gvi_real *v, int start)
 {
@@ -7298,11 +7300,13 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
                        : gvi__report_row(st, GVI_E_CONSTRAINT, refused, GVI_FAULT_NONE);
 }
 
-/* Rows are about to depend where a combination leaves less than half of the digits of its terms,
-   and more than rounding: a change point of a linkage.  Its multiplier is noise over what is left,
-   more the shorter a step is, so no h mends it.  All its terms, not one row's: so it is as near in
-   every frame.  Rows that were that near where the motion started may stay so.  `margin`: where a
-   step has failed, earlier by a third of the digits; 0: a start, to be remembered.  From gram1. */
+/* Rows are about to depend where of the terms of a combination less than half of the digits are
+   left, and more than rounding: a change point of a linkage.  Its multiplier is noise over what is
+   left, the more so the shorter a step is, so no h mends it.  Held against all its terms, not those
+   of one row, a position is as near in every frame; before a failure m times those of one row are
+   looked at first, which is cheaper.  Rows that were that near where the motion started may stay
+   so.  `margin`: where a step has failed, earlier by a third of the digits; 0: a start, to be
+   remembered.  From gram1.                                                                    */
 GVI__CALLED gvi_status gvi__check_rank(gvi_stepper *st, int margin)
 {
     const int m = st->in.con.m;
@@ -7887,6 +7891,7 @@ GVI__OFFERED int gvi__place_explain(gvi_stepper *st, gvi_status status, gvi_real
                                     gvi_status *start)
 {
     if (!gvi__constrained(st)) return 0;
+
     gvi_real *drops = st->in.con.drops + st->in.con.m;
     *start = gvi__constraints_at(st, st->t, st->q, st->p, v, drops);
     if (*start == GVI_OK) {
@@ -8775,9 +8780,9 @@ static gvi_real gvi__power(gvi_real x, int k)
 }
 
 /* Are the highest modes of coordinate i nothing but rounding?  Of the terms of its row: P and A,
-   where V is M^-1 (P - A).  Or of t and q at its points, which is as large in all modes, to a
-   factor of 4 (test_resolution; that, in float alone).  all: the size of the velocity, or in
-   positions of p.                                                                             */
+   where V is M^-1 (P - A), and A as large as P.  Or of t and q at its points, which is as large in
+   all modes, to a factor of 4 (test_resolution misses either; the factor, in float alone).  all:
+   the size of the velocity, or in positions of p.                                             */
 static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real low, gvi_real all)
 {
     const struct gvi__private *in = &st->in;
@@ -8793,7 +8798,7 @@ static int gvi__modes_end(const gvi_stepper *st, int i, gvi_real high, gvi_real 
         change *= h;
         reach *= inertia;
     } else {
-        terms += (2*p + dp)/inertia*(in->adds_p ? 2 : 1);      // A is P, but for M V
+        terms += (2*p + dp)/inertia*(in->adds_p ? 2 : 1);
         change += dp/inertia;
     }
 

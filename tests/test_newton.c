@@ -637,8 +637,8 @@ TEST(a_general_L_starts_from_rest_however_short_the_step)
             }
 }
 
-/* The same by the dial: beside a large p, rounding of v is no error of a step, however short the step is.  dL/dv over v,
-   which a gauge makes as large as it likes, would say so of one that starts from rest. */
+/* The same by the dial: beside a large p, rounding of v is no error of a step, however short the step is.  The inertia is
+   d2L/dv2; p over v, which a gauge makes as large as it likes, would make that rounding an error of a step from rest. */
 TEST(a_mass_of_terms_is_measured_as_it_is_whatever_the_gauge)
 {
     static const gvi_effect e = { .kind = GVI_LAGRANGIAN, .points = charge_in_polar };
