@@ -646,7 +646,7 @@ TEST(a_mass_of_terms_is_measured_as_it_is_whatever_the_gauge)
                             .resolution = (real)1e-4L };
     for (int k = 1; k <= 40; ++k) {
         gvi_stepper st = new_motion(&desc, 0, (real[]){ 1, 0 }, (real[]){ 0, 0 });
-        assert_ok(gvi_step(&st, ldexp(1, -k)));
+        assert_ok(gvi_step(&st, (real)ldexp(1, -k)));
     }
 
     gvi_stepper st = new_motion(&desc, 0, (real[]){ 1, 0 }, (real[]){ 0, 0 });

@@ -140,6 +140,8 @@ MUTANTS = [
     ("effects constraints why", "        in->off = was;\n        in->con.m = gvi__count_rows(in, gvi__constraints_on(st));\n", "        in->off = was;\n"),
     ("api", "if (index < 0 || index >= in->desc.effect_count)", "if (index < 0)"),
     ("clock", "time->H_low = H.lo;", "time->H_low = 0;"),
+    ("resolution", "st->in.dial.put_off = st->formulation != GVI_NEWTON\n                              && ", "st->in.dial.put_off = "),
+    ("resolution", "0);\n    dial->reach = at + room;", "0);\n    if (room < 2*GVI__GROWS) dial->reach = at + room;"),
     ("resolution", "for (int m = 0; m < pulled; ++m)", "for (int m = 0; m < 0; ++m)"),
     ("constraints constraints_order", "in->con.y[a - n] /= h*in->con.w[s];", "in->con.y[a - n] /= h;"),
     ("newton", "p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);", "p.have = kept;"),
