@@ -5577,10 +5577,11 @@ typedef struct gvi__matrix {
    rounding makes of one, see gvi__newton_update; how often no change was less than half of the
    least; is there a matrix that will do, is it new (1) and was the last one (2); how often was
    the last change halved, or -1: none to take back; did that change move the residual by half of
-   itself, or is the residual rounding?                                                        */
+   itself, or is the residual rounding?  Did changes fall (1), and rise (2), since one was taken
+   for rounding?                                                                               */
 typedef struct gvi__descent {
     gvi_real before, earlier, least, rho, left, work, norm, each, grain;
-    int      stagnant, have, fresh, halves, holds;
+    int      stagnant, have, fresh, halves, holds, ways;
 } gvi__descent;
 
 /* What is held plugs in here: its count of unknowns; g and forces at y; what they add to row k of
@@ -6054,16 +6055,24 @@ static void gvi__newton_note(gvi_stepper *st, gvi__descent *p, gvi_real change, 
 /* Is it rounding?  It is if y, q or the residual is, once the contraction was seen or it does not
    shrink; and if it does not, though small, with a matrix that is new or has contracted here: an
    older one can repeat any change.  What is left of the error, p->left, was no more than the change
-   before times the contraction then, and shrinks on by that.                                  */
+   before times the contraction then, and shrinks on by that.  What is more than the rounding of y
+   has to rise and to fall: only falling, it converges, if slowly; only rising, it diverges, and is
+   rounding no more where it is not small.                                                     */
 static int gvi__newton_at_floor(gvi__descent *p, gvi_real change, gvi_real noise)
 {
     const gvi_real quarter = GVI__CONTRACTS, rho = gvi__smaller(p->rho, quarter);
-    const int fresh = p->fresh & 1, contracts = p->rho < quarter, still = p->stagnant > 0;
-    const int small = change <= noise || (fresh && change <= GVI_SQRT(GVI__EPS)),
-              proven = small && ((fresh && p->holds) || contracts),
+    const int fresh = p->fresh & 1, contracts = p->rho < quarter, still = p->stagnant > 0,
+              last_places = change <= noise || p->work < 0,
+              small = last_places || change <= GVI_SQRT(GVI__EPS),
+              proven = (last_places || (small && fresh)) && ((fresh && p->holds) || contracts),
               rounding = p->work < 0 ? still || contracts : still && proven;
-    if (!(p->left < GVI__MAX) && rounding) p->left = gvi__smaller(change, p->before*rho);
+
+    if (!small) p->left = GVI__MAX, p->ways = 0;
+    else if (!(p->left < GVI__MAX) && rounding) p->left = gvi__smaller(change, p->before*rho);
     if (!(p->left < GVI__MAX)) return 0;
+
+    const int falls = change <= p->before, rises = change >= p->before;
+    p->ways |= last_places ? 3 : falls | rises << 1;
     p->left *= rho;
     return 1;
 }
@@ -6088,7 +6097,7 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
     const int at_floor = gvi__newton_at_floor(p, change, noise), contracts = p->rho < quarter;
 
     const int confirmed = (p->fresh & 1 && p->holds) || change <= noise || change*other <= enough;
-    const int done = (p->each*ratio <= enough && confirmed) || p->left <= enough;
+    const int done = (p->each*ratio <= enough && confirmed) || (p->left <= enough && p->ways == 3);
     if (done && (p->holds || contracts)) return GVI__DONE;
 
     // rounding by a matrix that has contracted here asks for no other
@@ -6133,7 +6142,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
     const int size = (int)gvi__unknowns(st, J->k0), modes = (st->s - J->k0)*st->n,
               kept = J->pivot == in->newton.pivot;
     gvi__descent p = {
-        0, 0, GVI__MAX, GVI__CONTRACTS, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, -1, 0
+        0, 0, GVI__MAX, GVI__CONTRACTS, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, -1, 0, 0
     };
     p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);
     in->newton.bend = 0;
@@ -9191,7 +9200,7 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, size = (st->s - J->k0)*n;
-    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, 0, 0 };
+    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, 0, 0, 0 };
     gvi_real *y = in->newton.y, before = 0, length = 0;
 
     if (grow > 1 && J->k0 == 0) {

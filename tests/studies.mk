@@ -349,7 +349,7 @@ $(BUILD)/hard/% $(BUILD)/theorems/%: tests/$$(notdir $$(@D))/$$*.c | $(FIRST)
 hard: $(HARD:%=hard-%)
 $(HARD:%=hard-%) hard-random-float: hard-%: $(BUILD)/hard/%
 	$(Q)mkdir -p $(PICTURES)
-	$(STEP) $@ $< $(if $(filter stiff,$*),$(PICTURES)) $(if $(filter brouwer% drift,$*),$(SEED)) $(if $(filter random%,$*),$(RANDOM_SECONDS) $(SEED))
+	$(STEP) $@ $< $(if $(filter stiff,$*),$(PICTURES)) $(if $(filter brouwer% drift lucky,$*),$(SEED)) $(if $(filter random%,$*),$(RANDOM_SECONDS) $(SEED))
 
 # Short forms of those above, in make check: what no check runs breaks
 SHORT_random  = 5

@@ -15,6 +15,20 @@ TEST(a_small_ratio_of_changes_ends_no_iteration)
     assert_true(found.ok > 5700);
 }
 
+/* Scenes of hard-lucky: Newton's method falls by 0.6, or grows by 1.25 or 1.5, where it is taken for rounding */
+TEST(changes_that_only_fall_or_grow_are_no_rounding)
+{
+    static const unsigned long long scenes[] = { 6547025655016067765ULL, 15088488748323696681ULL, 12176127229684934365ULL,
+                                                 10090165056755855069ULL, 14496065935243104503ULL };
+    if (LDBL_MANT_DIG <= DBL_MANT_DIG || EPS < DBL_EPSILON) skip();
+    for (int i = 0; i < COUNT(scenes); ++i) {
+        lucky_found found;
+        lucky_seed = scenes[i];
+        lucky_run(8, &found);
+        assert_int_equal(found.wrong, 0);
+    }
+}
+
 GVI_EACH(pendulum, 1, f) { x->f[0] -= sin(x->q[0]); }
 
 /* Midpoint rule; from here the first iterate is the solution to 1e-13, by chance */
