@@ -1744,6 +1744,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__WAIT 4                        // steps until a length that failed is tried again
 #define GVI__SHORTER 16                    // below what the resolution allows: Newton's method
 #define GVI__STEADY ((gvi_real)0.64)       // of a fall of modes, squared, that one pair alone shows
+#define GVI__MARGIN 10                     // of an error that high modes tell: a tail may be flatter
 #define GVI__AT_REST 4096                  // times slower than the fastest: judged with it
 #define GVI__PULLED 256                    // roundings of g, of forces that cancel or constrain
 
@@ -8872,7 +8873,7 @@ static gvi_real gvi__missed(const gvi_stepper *st, int i, const gvi_real *y, gvi
         fall = gvi__smaller(gvi__larger(half*half, fall), 1);
     }
 
-    gvi_real lacks = gvi__power(fall, e/2)*10;
+    gvi_real lacks = gvi__power(fall, e/2)*GVI__MARGIN;
     if (e & 1) lacks *= GVI_SQRT(fall);
     return high*gvi__smaller(lacks, 1);
 }
@@ -8999,7 +9000,7 @@ static gvi_real gvi__coarse_resolution(const gvi_stepper *st)
     const gvi_real whole = GVI_SQRT(size) + GVI_SQRT(far)/h;
     if (size*GVI__AT_REST*GVI__AT_REST < whole*whole) floor += GVI__EPS*GVI__EPS*whole*whole;
     if (!(began > 0) || high <= GVI__SOLVED*GVI__SOLVED*floor) return 0;
-    return 10*GVI_SQRT(high/size);
+    return GVI__MARGIN*GVI_SQRT(high/size);
 }
 
 static gvi_status gvi__dial_accept(gvi_stepper *st)
