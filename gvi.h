@@ -1744,7 +1744,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__WAIT 4                        // steps until a length that failed is tried again
 #define GVI__SHORTER 16                    // below what the resolution allows: Newton's method
 #define GVI__STEADY ((gvi_real)0.64)       // of a fall of modes, squared, that one pair alone shows
-#define GVI__MARGIN 10                     // of an error that high modes tell: a tail may be flatter
+#define GVI__MARGIN 10                     // of what high modes tell: a tail may be flatter
 #define GVI__AT_REST 4096                  // times slower than the fastest: judged with it
 #define GVI__PULLED 256                    // roundings of g, of forces that cancel or constrain
 
@@ -8026,7 +8026,8 @@ GVI__COLD gvi_status gvi__hold_rate(gvi_stepper *st, const gvi_real *v, const gv
     return GVI_OK;
 }
 
-/* A time in which much changes, |p||q|/p'v or 1, is the first delta, a power of 2, times 8 or more.
+/* A time in which much changes is the first delta, a power of 2, times 8 or more: that of the
+   rates p'v/|p||q| and (|q||F|/q'M q)^(1/2), by which a body near rest moves, together; or 1.
    d2L/dv2 by differences is not A to rounding, so what it leaves is found twice more.         */
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
 {
@@ -8041,7 +8042,8 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
 
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
-    gvi_real *u = in->answer + 2*n, *v = in->con.scratch, *F = in->step.p, size = 0;
+    gvi_real *u = in->answer + 2*n, *v = in->con.scratch, *F = in->step.p, size = 0, work = 0,
+             moment = 0;
     const gvi_real *y = in->con.y;
     gvi_points at = gvi__one_point(st, &st->t, st->q);
     gvi__velocity_guess(st, u);
@@ -8054,8 +8056,15 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     gvi__zero((size_t)m, in->con.y);
 
     const gvi_real terms = m > 0 && status == GVI_OK ? gvi__rate_terms(st, v) : 0;
-    for (int i = 0; i < n; ++i) size += GVI_ABS(st->p[i]*st->q[i]);
-    gvi_real time = size/GVI_ABS(gvi__dot(n, st->p, v));
+    for (int i = 0; i < n; ++i) {
+        const gvi_real q = GVI_ABS(st->q[i]);
+        size += GVI_ABS(st->p[i])*q;
+        work += GVI_ABS(F[i])*q;
+        moment += gvi__place_inertia(st, i)*q*q;
+    }
+    const gvi_real moves = size > 0 ? GVI_ABS(gvi__dot(n, st->p, v))/size : 0,
+                   falls = moment > 0 ? GVI_SQRT(work/moment) : 0;
+    gvi_real time = 1/(moves + falls);
     if (!(time > 0) || !gvi__finite(time)) time = 1;
     int exponent;
     (void)GVI_FREXP(time, &exponent);

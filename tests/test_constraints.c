@@ -1228,6 +1228,29 @@ TEST(multipliers_where_the_momentum_is_not_the_masses)
     }
 }
 
+/* Nearly at rest, L = v^2/2 + 50 (v_0^4 + v_1^4)/4 - 100 q_0 on q_0 = q_1: the inertias are one, lambda is 50.
+   A time by v alone would take differences as far as the motion gets with v in the thousands. */
+static int heavy_when_fast(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    for (int i = 0; i < 2; ++i) dldv[i] += 50*v[i]*v[i]*v[i];
+    f[0] -= 100;
+    return (void)t, (void)q, (void)user, 0;
+}
+
+TEST(multipliers_nearly_at_rest)
+{
+    const gvi_effect scene[] = { { .kind = GVI_LAGRANGIAN, .point = heavy_when_fast },
+                                 { .kind = GVI_CONSTRAINT, .points = side_by_side, .rows = 1 } };
+    const gvi_desc desc = { .n = 2, .degree = 4, .effects = scene, .effect_count = 2 };
+    for (int k = 4; k <= 24; k += 4) {
+        const real q[] = { 1, 1 }, v[] = { pow((real)10, -(real)k), pow((real)10, -(real)k) };
+        gvi_stepper st = new_motion(&desc, 0, q, v);
+        real lambda;
+        assert_ok(gvi_multipliers(&st, &lambda));
+        assert_close(lambda, 50, 50*256*EPS);
+    }
+}
+
 GVI_EACH(waving, 2, rows(1))                      /* q_1 = sin(w t) cos q_0 */
 {
     const real w = *(const real *)user, s = sin(w*x->t[0]), c = cos(x->q[0]);
