@@ -5578,8 +5578,8 @@ typedef struct gvi__matrix {
    rounding makes of one, see gvi__newton_update; how often no change was less than half of the
    least; is there a matrix that will do, is it new (1) and was the last one (2); how often was
    the last change halved, or -1: none to take back; did that change move the residual by half of
-   itself, or is the residual rounding?  Did changes fall (1), and rise (2), since one was taken
-   for rounding?                                                                               */
+   itself, or is the residual rounding?  Since a change was taken for rounding, did one fall (1),
+   one rise (2), and was one a few last places (4)?                                            */
 typedef struct gvi__descent {
     gvi_real before, earlier, least, rho, left, work, norm, each, grain;
     int      stagnant, have, fresh, halves, holds, ways;
@@ -6057,8 +6057,8 @@ static void gvi__newton_note(gvi_stepper *st, gvi__descent *p, gvi_real change, 
    shrink; and if it does not, though small, with a matrix that is new or has contracted here: an
    older one can repeat any change.  What is left of the error, p->left, was no more than the change
    before times the contraction then, and shrinks on by that.  What is more than the rounding of y
-   has to rise and to fall: only falling, it converges, if slowly; only rising, it diverges, and is
-   rounding no more where it is not small.                                                     */
+   has to rise and to fall: only falling, it converges, if slowly; only rising, it diverges.  It is
+   rounding no more once it is not small.                                                      */
 static int gvi__newton_at_floor(gvi__descent *p, gvi_real change, gvi_real noise)
 {
     const gvi_real quarter = GVI__CONTRACTS, rho = gvi__smaller(p->rho, quarter);
@@ -6068,12 +6068,12 @@ static int gvi__newton_at_floor(gvi__descent *p, gvi_real change, gvi_real noise
               proven = (last_places || (small && fresh)) && ((fresh && p->holds) || contracts),
               rounding = p->work < 0 ? still || contracts : still && proven;
 
-    if (!small) p->left = GVI__MAX, p->ways = 0;
+    if (!small && p->ways < 4) p->left = GVI__MAX, p->ways = 0;
     else if (!(p->left < GVI__MAX) && rounding) p->left = gvi__smaller(change, p->before*rho);
     if (!(p->left < GVI__MAX)) return 0;
 
     const int falls = change <= p->before, rises = change >= p->before;
-    p->ways |= last_places ? 3 : falls | rises << 1;
+    p->ways |= last_places ? 7 : falls | rises << 1;
     p->left *= rho;
     return 1;
 }
@@ -6098,7 +6098,7 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
     const int at_floor = gvi__newton_at_floor(p, change, noise), contracts = p->rho < quarter;
 
     const int confirmed = (p->fresh & 1 && p->holds) || change <= noise || change*other <= enough;
-    const int done = (p->each*ratio <= enough && confirmed) || (p->left <= enough && p->ways == 3);
+    const int done = (p->each*ratio <= enough && confirmed) || (p->left <= enough && p->ways >= 3);
     if (done && (p->holds || contracts)) return GVI__DONE;
 
     // rounding by a matrix that has contracted here asks for no other

@@ -17,7 +17,7 @@
      degree 1: leaves within 1e-04, lands within 1e-03
      degree 2: leaves within 1e-07, lands within 1e-07
      degree 3: leaves within 1e-11, lands within 1e-11
-     degree 4: leaves within 1e-14, lands within 1e-15
+     degree 4: leaves within 1e-14, lands within 1e-14
      cam at 0.999999 of the critical speed: never lifts
      cam at 1.000001 of the critical speed: lifts
 */

@@ -65,9 +65,9 @@ MUTANTS = [
     ("api", "    in->skip = own.skip;", ""),
     # Newton's method
     ("newton queries", "fv[j*n + i] : 0, 0);", "fv[i*n + j] : 0, 0);"),
-    ("convergence", " && p->ways == 3);", ");"),
+    ("convergence", " && p->ways >= 3);", ");"),
     ("constraints", "gvi_real time = 1/(moves + falls);", "gvi_real time = 1/moves;"),
-    ("convergence", "if (!small) p->left = GVI__MAX, p->ways = 0;\n    else if", "if"),
+    ("convergence", "if (!small && p->ways < 4) p->left = GVI__MAX, p->ways = 0;\n    else if", "if"),
     ("newton jumps", "change > p->least/2, at_floor",
               "change > p->least, at_floor"),
     # queries, boundary values
