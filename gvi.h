@@ -6057,8 +6057,8 @@ static void gvi__newton_note(gvi_stepper *st, gvi__descent *p, gvi_real change, 
    shrink; and if it does not, though small, with a matrix that is new or has contracted here: an
    older one can repeat any change.  What is left of the error, p->left, was no more than the change
    before times the contraction then, and shrinks on by that.  What is more than the rounding of y
-   has to rise and to fall: only falling, it converges, if slowly; only rising, it diverges.  It is
-   rounding no more once it is not small.                                                      */
+   has to rise and to fall: only falling, it converges, if slowly; only rising, it diverges.  And
+   once it is not small it was no rounding, unless one was a few last places.                  */
 static int gvi__newton_at_floor(gvi__descent *p, gvi_real change, gvi_real noise)
 {
     const gvi_real quarter = GVI__CONTRACTS, rho = gvi__smaller(p->rho, quarter);
@@ -6068,8 +6068,10 @@ static int gvi__newton_at_floor(gvi__descent *p, gvi_real change, gvi_real noise
               proven = (last_places || (small && fresh)) && ((fresh && p->holds) || contracts),
               rounding = p->work < 0 ? still || contracts : still && proven;
 
-    if (!small && p->ways < 4) p->left = GVI__MAX, p->ways = 0;
-    else if (!(p->left < GVI__MAX) && rounding) p->left = gvi__smaller(change, p->before*rho);
+    if (!small && p->ways < 4) {
+        p->left = GVI__MAX;
+        p->ways = 0;
+    } else if (!(p->left < GVI__MAX) && rounding) p->left = gvi__smaller(change, p->before*rho);
     if (!(p->left < GVI__MAX)) return 0;
 
     const int falls = change <= p->before, rises = change >= p->before;

@@ -20,7 +20,7 @@ TEST(changes_that_only_fall_or_grow_are_no_rounding)
 {
     static const unsigned long long scenes[] = { 6547025655016067765ULL, 15088488748323696681ULL, 12176127229684934365ULL,
                                                  10090165056755855069ULL, 14496065935243104503ULL };
-    if (LDBL_MANT_DIG <= DBL_MANT_DIG || EPS < DBL_EPSILON) skip();
+    if (LDBL_MANT_DIG <= DBL_MANT_DIG) skip();
     for (int i = 0; i < COUNT(scenes); ++i) {
         lucky_found found;
         lucky_seed = scenes[i];

@@ -67,7 +67,7 @@ MUTANTS = [
     ("newton queries", "fv[j*n + i] : 0, 0);", "fv[i*n + j] : 0, 0);"),
     ("convergence", " && p->ways >= 3);", ");"),
     ("constraints", "gvi_real time = 1/(moves + falls);", "gvi_real time = 1/moves;"),
-    ("convergence", "if (!small && p->ways < 4) p->left = GVI__MAX, p->ways = 0;\n    else if", "if"),
+    ("convergence", "if (!small && p->ways < 4) {\n        p->left = GVI__MAX;", "if (0) {\n        p->left = GVI__MAX;"),
     ("newton jumps", "change > p->least/2, at_floor",
               "change > p->least, at_floor"),
     # queries, boundary values
